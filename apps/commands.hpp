@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every subcommand shares: how it is added to the program and how it talks to the user.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace mortise::app {
+
+/// Options every subcommand has.
+struct CommonOptions {
+  int threads = 0;     ///< 0 = all cores
+  bool quiet = false;  ///< no progress, no warnings, no table
+  bool json = false;   ///< one JSON object on stdout instead of text
+};
+
+/// Adds --threads, --quiet and --json to a subcommand and `examples` to the foot of its help.
+void add_common_options(CLI::App& command, CommonOptions& options, const std::string& examples);
+
+/// A unit interval [0, 1] progress bar with rate and time left on a terminal's stderr; silent otherwise or if quiet.
+/// Returns a callback that also stops the work (returns false) after Ctrl-C.
+[[nodiscard]] std::function<bool(std::size_t done, std::size_t total)> make_progress(
+    const std::string& label, const CommonOptions& options);
+
+/// True once SIGINT or SIGTERM has arrived; install_interrupt_handler() must have run.
+[[nodiscard]] bool interrupted();
+void install_interrupt_handler();
+
+/// Each adds one subcommand; its callback does the work and throws on errors.
+void add_rotations(CLI::App& program);
+
+}  // namespace mortise::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The mortise program: dispatches to the subcommands and turns errors into exit codes.
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/core/version.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App program{"Mortise finds how two rigid bodies fit together: protein docking and part mating."};
+  program.name("mortise");
+  program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+  try {
+    mortise::app::install_interrupt_handler();
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    std::fprintf(stderr, "mortise: error: %s\n", e.what());
+    return 1;
+  } catch (const mortise::InputError& e) {
+    std::fprintf(stderr, "mortise: error: %s\n", e.what());
+    return 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "mortise: internal error: %s\n", e.what());
+    return 2;
+  }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// parallel_for on oneTBB.
+#include "mortise/core/threads.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "mortise/core/errors.hpp"
+
+namespace mortise {
+
+int resolve_threads(int threads) {
+  if (threads < 0) throw InputError("threads must be >= 0, got " + std::to_string(threads));
+  if (threads > 0) return threads;
+  return std::max(1, tbb::this_task_arena::max_concurrency());
+}
+
+void parallel_for(std::size_t count, int threads,
+                  const std::function<void(std::size_t index, int worker)>& body) {
+  const int workers = resolve_threads(threads);
+  if (workers == 1 || count <= 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i, 0);
+    return;
+  }
+  tbb::task_arena arena(workers);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          const int worker = tbb::this_task_arena::current_thread_index();
+          // Isolated: a body that itself runs parallel work must not pick up a second index on this worker.
+          tbb::this_task_arena::isolate([&] {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, worker);
+          });
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+}  // namespace mortise
