@@ -19,8 +19,8 @@ struct CommonOptions {
 /// Adds --threads, --quiet and --json to a subcommand and `examples` to the foot of its help.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& examples);
 
-/// A unit interval [0, 1] progress bar with rate and time left on a terminal's stderr; silent otherwise or if quiet.
-/// Returns a callback that also stops the work (returns false) after Ctrl-C.
+/// A unit interval [0, 1] progress bar with rate and time left on a terminal's stderr; silent
+/// otherwise or if quiet. Returns a callback that also stops the work (returns false) after Ctrl-C.
 [[nodiscard]] std::function<bool(std::size_t done, std::size_t total)> make_progress(
     const std::string& label, const CommonOptions& options);
 

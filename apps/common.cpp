@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -19,7 +20,7 @@ void on_signal(int) { interrupt_flag = 1; }
 
 std::string clock_text(double seconds) {
   char text[32];
-  const long s = static_cast<long>(seconds + 0.5);
+  const long s = std::lround(seconds);
   if (s >= 3600)
     std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
   else
@@ -40,12 +41,15 @@ void install_interrupt_handler() {
 bool interrupted() { return interrupt_flag != 0; }
 
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& examples) {
-  command.add_option("--threads", options.threads, "Threads to use; 0 = all cores; never changes the result")
+  command
+      .add_option("--threads", options.threads,
+                  "Threads to use; 0 = all cores; never changes the result")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber)
       ->group("Common");
   command.add_flag("--quiet", options.quiet, "No progress, no warnings, no table")->group("Common");
-  command.add_flag("--json", options.json, "Print one JSON object with the run's figures to stdout")
+  command
+      .add_flag("--json", options.json, "Print one JSON object with the run's figures to stdout")
       ->group("Common");
   command.footer("Examples:\n" + examples);
 }
@@ -65,13 +69,16 @@ std::function<bool(std::size_t, std::size_t)> make_progress(const std::string& l
     if (finished || now - state->last > std::chrono::milliseconds(100)) {
       state->last = now;
       const double elapsed = std::chrono::duration<double>(now - state->start).count();
-      const double fraction = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+      const double fraction =
+          total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
       const double rate = elapsed > 0 ? static_cast<double>(done) / elapsed : 0.0;
       const double left = rate > 0 ? static_cast<double>(total - done) / rate : 0.0;
       std::string bar(30, '.');
-      for (std::size_t i = 0; i < bar.size() && static_cast<double>(i) < 30 * fraction; ++i) bar[i] = '#';
-      std::fprintf(stderr, "\r%s [%s] %3.0f%%  %.0f/s  %s left \x1b[K%s", label.c_str(), bar.c_str(),
-                   100 * fraction, rate, clock_text(left).c_str(), finished ? "\n" : "");
+      for (std::size_t i = 0; i < bar.size() && static_cast<double>(i) < 30 * fraction; ++i)
+        bar[i] = '#';
+      std::fprintf(stderr, "\r%s [%s] %3.0f%%  %.0f/s  %s left \x1b[K%s", label.c_str(),
+                   bar.c_str(), 100 * fraction, rate, clock_text(left).c_str(),
+                   finished ? "\n" : "");
       std::fflush(stderr);
     }
     return !interrupted();

@@ -8,7 +8,8 @@
 #include "mortise/core/version.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App program{"Mortise finds how two rigid bodies fit together: protein docking and part mating."};
+  CLI::App program{
+      "Mortise finds how two rigid bodies fit together: protein docking and part mating."};
   program.name("mortise");
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);

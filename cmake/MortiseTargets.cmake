@@ -6,11 +6,13 @@ target_compile_options(
   mortise_build_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                 $<$<BOOL:${MORTISE_WERROR}>:-Werror> $<$<BOOL:${MORTISE_NATIVE}>:-march=native>)
 if(MORTISE_SANITIZE)
-  target_compile_options(mortise_build_flags INTERFACE -fsanitize=${MORTISE_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(mortise_build_flags INTERFACE -fsanitize=${MORTISE_SANITIZE} -fno-sanitize-recover=all
+                                                       -fno-omit-frame-pointer)
   target_link_options(mortise_build_flags INTERFACE -fsanitize=${MORTISE_SANITIZE})
 endif()
 
 # One GoogleTest executable per room: mortise_add_room_tests(<room> <source>... [LIBRARIES ...])
+# A suite whose name contains "Slow" gets the label `slow`: .ci/run leaves it out of the sanitized run.
 function(mortise_add_room_tests room)
   cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
   add_executable(mortise_${room}_tests ${ARG_UNPARSED_ARGUMENTS})
@@ -18,7 +20,12 @@ function(mortise_add_room_tests room)
   target_include_directories(mortise_${room}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(
     mortise_${room}_tests PRIVATE MORTISE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" MORTISE_PROGRAM="$<TARGET_FILE:mortise_program>")
-  gtest_discover_tests(mortise_${room}_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  # PRE_TEST: listed when ctest starts, so that a build never runs what it has just linked.
+  gtest_discover_tests(
+    mortise_${room}_tests DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_FILTER "-*Slow*.*" PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(
+    mortise_${room}_tests DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_FILTER "*Slow*.*"
+    TEST_LIST mortise_${room}_slow_tests PROPERTIES TIMEOUT 1200 LABELS slow)
 endfunction()
 if(MORTISE_BUILD_TESTS)
   include(GoogleTest)

@@ -32,7 +32,8 @@ void parallel_for(std::size_t count, int threads,
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           const int worker = tbb::this_task_arena::current_thread_index();
-          // Isolated: a body that itself runs parallel work must not pick up a second index on this worker.
+          // Isolated: a body that itself runs parallel work must not pick up a second index on this
+          // worker.
           tbb::this_task_arena::isolate([&] {
             for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, worker);
           });

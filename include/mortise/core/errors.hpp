@@ -14,7 +14,8 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file is missing, unreadable or malformed. what() reads "path:line: message" (no line: "path: message").
+/// A file is missing, unreadable or malformed. what() reads "path:line: message" (no line: "path:
+/// message").
 class FileError : public InputError {
  public:
   FileError(std::string path, const std::string& message)

@@ -11,11 +11,12 @@
 
 namespace mortise {
 
-/// One scored placement: `moving_in_fixed` carries the moving body's input coordinates into the fixed body's input frame.
+/// One scored placement: `moving_in_fixed` carries the moving body's input coordinates into the
+/// fixed body's input frame.
 struct Pose {
   RigidMotion moving_in_fixed;
-  double score = 0.0;            ///< what poses are ranked by; higher is better
-  std::vector<double> channels;  ///< one value per entry of PoseList::channel_names
+  double score = 0.0;                ///< what poses are ranked by; higher is better
+  std::vector<double> channels;      ///< one value per entry of PoseList::channel_names
   std::int32_t rotation_index = -1;  ///< row of the run's rotation set; -1 = not from a set
   std::int32_t cluster = -1;         ///< 0-based, by rank of its best pose; -1 = not clustered
 };

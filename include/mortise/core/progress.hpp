@@ -8,7 +8,8 @@
 
 namespace mortise {
 
-/// Called now and then from the calling thread's computation with work done so far; returns false to stop early.
+/// Called now and then from the calling thread's computation with work done so far; returns false
+/// to stop early.
 using ProgressCallback = std::function<bool(std::size_t done, std::size_t total)>;
 
 }  // namespace mortise

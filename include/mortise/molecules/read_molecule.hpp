@@ -10,7 +10,8 @@
 
 namespace mortise {
 
-/// A structure file and the part of it that is meant: "complex.pdb", "complex.cif.gz:A,B", "complex.pdb#2:A".
+/// A structure file and the part of it that is meant: "complex.pdb", "complex.cif.gz:A,B",
+/// "complex.pdb#2:A".
 struct MoleculeSpec {
   std::string path;
   int model = 0;                    ///< 1-based model number; 0 = the first of the file
@@ -34,10 +35,13 @@ struct ReadMoleculeResult {
   std::vector<std::string> decisions;  ///< one line each, for the user: "dropped 120 waters"
 };
 
-/// Reads one structure through OpenMM (openmm.app.PDBFile or PDBxFile; .gz is unpacked first), first alternate location.
+/// Reads one structure through OpenMM (openmm.app.PDBFile or PDBxFile; .gz is unpacked first),
+/// first alternate location.
 ///
-/// @throws FileError for a missing, unreadable, empty or malformed file, with the line where there is one
-/// @throws InputError for a chain or model that is not there, CA-only chains, coordinates that are not finite or beyond
+/// @throws FileError for a missing, unreadable, empty or malformed file, with the line where there
+/// is one
+/// @throws InputError for a chain or model that is not there, CA-only chains, coordinates that are
+/// not finite or beyond
 ///         9,999 angstrom, and more than 2,000,000 atoms
 [[nodiscard]] ReadMoleculeResult read_molecule(const MoleculeSpec& spec,
                                                const ReadMoleculeOptions& options = {});
