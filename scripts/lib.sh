@@ -47,7 +47,7 @@ install_missing() {
       fail "packages are missing and there is no sudo; as root, run: apt-get update && apt-get install --no-install-recommends $wanted"
     as_root=(sudo)
   fi
-  step "install $(wc -w <<<"$wanted") packages" apt_install "${as_root[@]}" -- $wanted
+  step "install packages ($(wc -w <<<"$wanted"))" apt_install "${as_root[@]}" -- $wanted
   wanted=$(missing "$@" | tr '\n' ' ')
   [ -z "$wanted" ] || fail "apt-get did not install: $wanted"
 }
@@ -85,18 +85,14 @@ step() {
   printf '%4d s\n' $((SECONDS - start)) >&2
 }
 
-# configure PRESET [OPTION...]: ccache serves if it is there.
-configure() {
-  local preset=$1 launcher=()
-  shift
-  if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-  cmake --preset "$preset" "${launcher[@]}" "$@"
-}
-
-# build PRESET [CMAKE BUILD OPTION...]
+# build PRESET [CMAKE BUILD OPTION...]: configures and builds; with ccache if it is there.
 build() {
-  local preset=$1
+  local preset=$1 options=()
   shift
-  configure "$preset"
+  if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+  # A checkout that was moved: CMake refuses the old cache.
+  local cache=build/$preset/CMakeCache.txt
+  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$(pwd -P)" "$cache"; then options+=(--fresh); fi
+  cmake --preset "$preset" "${options[@]}"
   cmake --build --preset "$preset" -j "$jobs" "$@"
 }
