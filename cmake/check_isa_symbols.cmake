@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Test: objects compiled for one instruction set define no symbol outside their own namespace.
+# Usage: cmake -DNM=nm "-DOBJECTS=a.o|b.o" -P check_isa_symbols.cmake
+string(REPLACE "|" ";" objects "${OBJECTS}")
+set(seen 0)
+foreach(object IN LISTS objects)
+  if(object MATCHES "/isa_(avx2|avx512)/")
+    set(level ${CMAKE_MATCH_1})
+    math(EXPR seen "${seen} + 1")
+    execute_process(COMMAND ${NM} -C --defined-only --extern-only ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+    string(REPLACE ";" "," symbols "${symbols}")
+    string(REGEX MATCHALL "[^\n]+" lines "${symbols}")
+    foreach(line IN LISTS lines)
+      if(NOT line MATCHES "isa_${level}" AND NOT line MATCHES "DW.ref|__odr_asan|__asan|__gxx_personality")
+        message(SEND_ERROR "${object} defines a symbol that other code may be linked to: ${line}")
+      endif()
+    endforeach()
+  endif()
+endforeach()
+if(seen EQUAL 0)
+  message(FATAL_ERROR "no object compiled for one instruction set was given")
+endif()
