@@ -2,9 +2,14 @@
 // One door to every way of making a set of rotations.
 #include "mortise/rotations/rotation_set.hpp"
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/rotations/coverage.hpp"
+#include "rotations/checks.hpp"
+#include "rotations/stored_sets.hpp"
 
 namespace mortise {
 namespace {
@@ -21,12 +26,23 @@ constexpr MethodName kMethodNames[] = {{RotationMethod::kAuto, "auto"},
 
 }  // namespace
 
-RotationSet rotation_set(Eigen::Index count, RotationMethod method, int) {
+RotationSet rotation_set(Eigen::Index count, RotationMethod method, int threads) {
+  check_rotation_count(count, "rotation_set");
+  if (method == RotationMethod::kAuto || method == RotationMethod::kIcosahedral) {
+    if (std::optional<RotationSet> stored = stored_rotation_set(count)) return *std::move(stored);
+    if (method == RotationMethod::kIcosahedral) {
+      std::string counts;
+      for (const Eigen::Index known : stored_rotation_counts())
+        counts += (counts.empty() ? "" : ", ") + std::to_string(known);
+      throw InputError("rotation_set: method icosahedral makes " + counts + " rotations, got " +
+                       std::to_string(count));
+    }
+  }
   RotationSet set;
-  set.method = method == RotationMethod::kAuto ? RotationMethod::kSuperFibonacci : method;
-  if (set.method != RotationMethod::kSuperFibonacci)
-    throw InputError("rotation_set: method " + rotation_method_name(method) + " is not there yet");
-  set.quaternions = super_fibonacci_rotations(count);
+  const bool hopf = method == RotationMethod::kHopf;
+  set.method = hopf ? RotationMethod::kHopf : RotationMethod::kSuperFibonacci;
+  set.quaternions = hopf ? hopf_rotations(count) : super_fibonacci_rotations(count);
+  set.covering_radius = covering_radius(set.quaternions, threads);
   return set;
 }
 

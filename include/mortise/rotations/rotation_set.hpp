@@ -15,7 +15,7 @@ namespace mortise {
 enum class RotationMethod {
   kAuto,            ///< the stored set if there is one of this size, else super-Fibonacci
   kSuperFibonacci,  ///< super-Fibonacci spirals (Alexa 2022); any count
-  kHopf,            ///< HEALPix sphere times circle (Yershova et al. 2010); counts 12 n^2 m
+  kHopf,            ///< HEALPix sphere times circle (Yershova et al. 2010); some counts
   kIcosahedral      ///< stored unions of icosahedral cosets, optimised here; stored counts only
 };
 
@@ -53,6 +53,17 @@ inline constexpr Eigen::Index kMaxRotations = 10'000'000;
 /// Algorithm 1.
 /// @throws InputError unless 1 <= count <= kMaxRotations
 [[nodiscard]] Eigen::Matrix4Xd super_fibonacci_rotations(Eigen::Index count);
+
+/// The Hopf fibration of SO(3) over the 12 n^2 pixels of HEALPix, m turns about each direction:
+/// `count` columns, canonical, n and m chosen so that both are as evenly fine as the count allows
+/// (m = 6 n is best: 72 n^3 rotations). A. Yershova et al., Generating Uniform Incremental Grids on
+/// SO(3) Using the Hopf Fibration, IJRR 2010.
+/// @throws InputError unless count = 12 n^2 m with 3 n <= m <= 12 n; the message names the nearest
+/// such counts
+[[nodiscard]] Eigen::Matrix4Xd hopf_rotations(Eigen::Index count);
+
+/// The sizes of the stored sets, ascending: what RotationMethod::kIcosahedral makes.
+[[nodiscard]] std::vector<Eigen::Index> stored_rotation_counts();
 
 /// "super-fibonacci" and so on: the names the command line takes and files hold.
 [[nodiscard]] std::string rotation_method_name(RotationMethod method);
