@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  mortise::app::add_rotations(program);
   try {
     mortise::app::install_interrupt_handler();
     program.parse(argc, argv);
