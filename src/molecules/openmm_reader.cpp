@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "molecules/cif_value.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace py = pybind11;
@@ -168,14 +169,6 @@ void append_pdb(std::string& text, const AtomRecord& record, std::size_t serial)
   std::snprintf(part, sizeof part, "  1.00  0.00          %2s\n",
                 a.element.empty() ? "EP" : a.element.c_str());
   text += part;
-}
-
-std::string cif_value(const std::string& value) {
-  if (value.empty()) return ".";
-  if (value.find_first_of(" \t") == std::string::npos && value[0] != '_' && value[0] != '\'' &&
-      value[0] != '"' && value[0] != '#' && value[0] != ';')
-    return value;
-  return value.find('\'') == std::string::npos ? "'" + value + "'" : "\"" + value + "\"";
 }
 
 constexpr char kMmcifHead[] =

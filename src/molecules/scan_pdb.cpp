@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "molecules/atom_records.hpp"
+#include "molecules/hybrid36.hpp"
 #include "molecules/residue_kinds.hpp"
 #include "mortise/core/errors.hpp"
 
@@ -17,22 +18,10 @@ std::optional<int> parse_int(std::string_view text, int base = 10) {
   return value;
 }
 
-/// Residue numbers beyond the four columns: hybrid-36 ("A000" is 10000, as cctbx defines it), or
-/// hexadecimal.
+/// Decimal or hybrid-36; hexadecimal where it is neither ("27AF", from programs that count so).
 std::optional<int> parse_residue_number(std::string_view field) {
-  if (const auto decimal = parse_int(field)) return decimal;
-  const bool upper = field.size() == 4 && field[0] >= 'A' && field[0] <= 'Z';
-  const bool lower = field.size() == 4 && field[0] >= 'a' && field[0] <= 'z';
-  constexpr int k36Cubed = 36 * 36 * 36;
-  if (upper || lower) {
-    for (const char c : field)
-      if (const bool digit = c >= '0' && c <= '9';
-          !digit && !(upper && c >= 'A' && c <= 'Z') && !(lower && c >= 'a' && c <= 'z'))
-        return {};
-    const auto value = parse_int(field, 36);
-    return *value - 10 * k36Cubed + 10000 + (lower ? 26 * k36Cubed : 0);
-  }
-  return parse_int(field, 16);
+  const auto value = decode_hybrid36(field, 4);
+  return value ? value : parse_int(field, 16);
 }
 
 AtomRecord parse_atom(std::string_view line, const std::string& path, long number,
