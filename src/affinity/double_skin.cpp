@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Double-skin affinity of balls.
+#include "mortise/affinity/double_skin.hpp"
+
+#include <complex>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/kernels/ball.hpp"
+
+namespace mortise {
+
+RadialTransform double_skin_transform(const DoubleSkinOptions& options) {
+  if (!(options.offset > 0.0))
+    throw InputError("double skin: offset must be > 0, got " + std::to_string(options.offset));
+  if (!(options.penalty >= 0.0))
+    throw InputError("double skin: penalty must be >= 0, got " + std::to_string(options.penalty));
+  return [options](double k, double r) {
+    return ball_transform(k, r + options.offset) - options.penalty * ball_transform(k, r);
+  };
+}
+
+Channel double_skin_channel(const Knots& fixed, const Knots& moving,
+                            const DoubleSkinOptions& options) {
+  const RadialTransform transform = double_skin_transform(options);
+  Channel channel{"shape", 1.0, fixed, moving, transform, transform, 0.0};
+  for (Knots* knots : {&channel.fixed, &channel.moving}) {
+    if (knots->weights.size() > 0 && knots->weights.imag().cwiseAbs().maxCoeff() > 0.0)
+      throw InputError("double skin: knot weights must be real; they become the affinity's i w");
+    knots->weights *= std::complex<double>(0.0, 1.0);
+  }
+  check_channel(channel, "double skin");
+  channel.range =
+      fixed.points.row(3).maxCoeff() + moving.points.row(3).maxCoeff() + 2.0 * options.offset;
+  return channel;
+}
+
+}  // namespace mortise
