@@ -23,6 +23,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 40> kParents
     {"PSU", "U"},   {"5MU", "U"},   {"5MC", "C"},   {"OMG", "G"},
 }};
 
+// Ends of a peptide that are no residues.
+constexpr std::array<std::string_view, 4> kCaps{"ACE", "FOR", "NH2", "NME"};
+
 constexpr std::array<std::string_view, 4> kPeptideBackbone{"N", "CA", "C", "O"};
 constexpr std::array<std::string_view, 12> kNucleicBackbone{
     "P", "OP1", "OP2", "O5'", "C5'", "C4'", "O4'", "C3'", "O3'", "C2'", "O2'", "C1'"};
@@ -47,6 +50,14 @@ const Atom* find_atom(const Molecule& molecule, const ResidueRange& range, std::
   for (std::size_t i = range.first; i < range.last; ++i)
     if (canonical_atom_name(molecule.atoms[i].name) == name) return &molecule.atoms[i];
   return nullptr;
+}
+
+bool has_sugar_or_phosphate(const Molecule& molecule, const ResidueRange& range) {
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const std::string name = canonical_atom_name(molecule.atoms[i].name);
+    if (name == "P" || (!name.empty() && name.back() == '\'')) return true;
+  }
+  return false;
 }
 
 bool bonded(const Molecule& molecule, const ResidueRange& first, std::string_view first_name,
@@ -74,10 +85,11 @@ std::vector<PolymerResidue> polymer_residues(const Molecule& molecule) {
   const std::vector<ResidueRange> ranges = residues(molecule);
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     const ResidueRange& range = ranges[k];
-    const bool nucleotide = find_atom(molecule, range, "C1'") != nullptr &&
-                            find_atom(molecule, range, "C4'") != nullptr;
-    if (!nucleotide && find_atom(molecule, range, "CA") == nullptr) continue;
     const Atom& head = molecule.atoms[range.first];
+    if (std::find(kCaps.begin(), kCaps.end(), head.residue_name) != kCaps.end()) continue;
+    // Poorly resolved residues may lack any atom, CA too: what is left of them still counts.
+    const bool amino_acid = find_atom(molecule, range, "CA") != nullptr;
+    const bool nucleotide = !amino_acid && has_sugar_or_phosphate(molecule, range);
     if (head.hetero && !(k > 0 && joined(molecule, ranges[k - 1], range)) &&
         !(k + 1 < ranges.size() && joined(molecule, range, ranges[k + 1])))
       continue;
