@@ -37,8 +37,7 @@ ResidueContacts::ResidueContacts(const std::vector<Eigen::Matrix3Xd>& fixed,
                                  const std::vector<Eigen::Matrix3Xd>& moving,
                                  const std::vector<std::pair<std::int32_t, std::int32_t>>& native,
                                  double cutoff)
-    : cutoff_(cutoff),
-      fixed_count_(fixed.size()),
+    : fixed_count_(fixed.size()),
       atoms_(joined(moving)),
       grid_(joined(fixed), cutoff, longest_reach(moving, cutoff)) {
   for (std::size_t r = 0; r < fixed.size(); ++r)

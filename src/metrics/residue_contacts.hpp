@@ -35,7 +35,6 @@ class ResidueContacts {
     std::int32_t first_native = 0, last_native = 0;  // its part of native_
   };
 
-  double cutoff_;
   std::size_t fixed_count_;
   std::vector<MovingResidue> moving_;
   Eigen::Matrix3Xd atoms_;            // of the moving body
