@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Centroid and inertia of the moving body.
+#include "mortise/metrics/pose_distance.hpp"
+
+#include <cmath>
+
+#include "mortise/core/errors.hpp"
+
+namespace mortise {
+
+PoseDistance::PoseDistance(const Eigen::Matrix3Xd& points) {
+  if (points.cols() == 0) throw InputError("PoseDistance: expected at least one point, got none");
+  if (!points.allFinite())
+    throw InputError("PoseDistance: expected finite coordinates, got one that is not");
+  const double count = static_cast<double>(points.cols());
+  centroid_ = points.rowwise().mean();
+  const Eigen::Matrix3Xd p = points.colwise() - centroid_;
+  const Eigen::Matrix3d second = p * p.transpose() / count;
+  inertia_ = second.trace() * Eigen::Matrix3d::Identity() - second;
+}
+
+double PoseDistance::rmsd(const RigidMotion& a, const RigidMotion& b) const {
+  return std::sqrt(mean_square(a, b));
+}
+
+}  // namespace mortise
