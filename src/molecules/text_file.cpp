@@ -59,8 +59,10 @@ std::string_view trim(std::string_view text) {
 std::string read_text(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
+  if (status.type() == std::filesystem::file_type::not_found)
     throw FileError(path, "expected a structure file, found none");
+  if (status.type() == std::filesystem::file_type::none)  // a folder on the way is closed to us
+    throw FileError(path, "cannot be opened: " + error.message());
   if (std::filesystem::is_directory(status))
     throw FileError(path, "expected a structure file, found a directory");
   std::ifstream file(path, std::ios::binary);
