@@ -294,6 +294,18 @@ int main(int argc, char** argv) {
     if (representatives % right.size() != 0)
       throw mortise::InputError("--cosets must be a multiple of the order of --right");
     const std::size_t free = representatives / right.size();
+    const auto write = [&](const std::string& path, const Points& p, double radius) {
+      std::ofstream file(path);
+      file << "# Representatives (w x y z) of " << representatives
+           << " left cosets of the icosahedral rotation group; covering radius in degrees first.\n"
+           << "# Made by optimise_rotations --cosets " << representatives << " --right "
+           << right_name << " --steps " << steps << " --kicks " << kicks << " --patience "
+           << patience << " --seed " << seed << "\n"
+           << std::setprecision(9) << kDegrees * radius << "\n"
+           << std::fixed << std::setprecision(12);
+      for (const Quaterniond& q : coset_representatives(p, left, right))
+        file << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
+    };
     double best = 1e300;
     for (int start = 0; start < starts; ++start) {
       std::mt19937_64 random(seed * 1'000'003ULL + static_cast<unsigned>(start));
@@ -305,6 +317,12 @@ int main(int argc, char** argv) {
       }
       SymmetricSet set(left, right, free);
       auto value = anneal(set, p, 8.0, steps, best);
+      const auto keep = [&] {
+        if (value.radius >= best) return;
+        best = value.radius;
+        if (!output.empty()) write(output, p, best);
+      };
+      keep();
       int since = 0;
       for (int kick = 0; kick < kicks && since < patience && value.radius < 1.03 * best; ++kick) {
         Points trial = kicked(p, value.deepest, set.ball(), random);
@@ -314,25 +332,11 @@ int main(int argc, char** argv) {
         since = 0;
         p = std::move(trial);
         value = result;
+        keep();
       }
-      const double radius = value.radius;
-      std::printf("start %d: %.4f degrees%s\n", start, kDegrees * radius,
-                  radius < best ? " *" : "");
+      std::printf("start %d: %.4f degrees, best %.4f\n", start, kDegrees * value.radius,
+                  kDegrees * best);
       std::fflush(stdout);
-      if (radius >= best) continue;
-      best = radius;
-      if (output.empty()) continue;
-      std::ofstream file(output);
-      file << "# Representatives (w x y z) of " << representatives
-           << " left cosets of the icosahedral rotation group.\n# Made by optimise_rotations "
-              "--cosets "
-           << representatives << " --right " << right_name << " --seed " << seed << " --steps "
-           << steps << " --kicks " << kicks << ", start " << start
-           << ".\n# Covering radius in degrees:\n"
-           << std::setprecision(9) << kDegrees * radius << "\n"
-           << std::fixed << std::setprecision(12);
-      for (const Quaterniond& q : coset_representatives(p, left, right))
-        file << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
     }
   } catch (const mortise::InputError& e) {
     std::fprintf(stderr, "optimise_rotations: error: %s\n", e.what());
