@@ -100,7 +100,7 @@ TEST(RotationSet, StoredSetsAreCosetsAndCoverAsTheirTablesSay) {
   const std::vector<Eigen::Quaterniond> group = rotation_group("I");
   EXPECT_THAT(stored_rotation_counts(), testing::IsSupersetOf({3600, 54000}));
   for (const Eigen::Index count : stored_rotation_counts()) {
-    if (count > 8000) continue;  // StoredSetsSlow
+    if (count > 8000) continue;  // the next test
     const RotationSet set = rotation_set(count, RotationMethod::kIcosahedral);
     ASSERT_EQ(set.size(), count);
     expect_canonical(set.quaternions);
@@ -118,8 +118,7 @@ TEST(RotationSet, DockingSetOf3600CoversWithin12Degrees6) {
   EXPECT_LE(covering_radius(set.quaternions) * kDegrees, 12.6);
 }
 
-// Measures sets of many thousand rotations: seconds. CMake gives it the label slow.
-TEST(StoredSetsSlow, LargeSetsCoverAsTheirTablesSay) {
+TEST(RotationSet, LargeStoredSetsCoverAsTheirTablesSay) {
   for (const Eigen::Index count : stored_rotation_counts()) {
     if (count <= 8000) continue;
     const RotationSet set = rotation_set(count);
