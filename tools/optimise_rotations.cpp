@@ -16,6 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -35,14 +36,11 @@ namespace {
 using Eigen::Index;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Eigen::Vector4d;
 using mortise::displaced;
 using mortise::SymmetricSet;
 using Points = mortise::Rotations;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-Vector4d coordinates(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 /// Lowers f_power by L-BFGS from `p`, in place; stops after `steps`, or when no step helps.
 SymmetricSet::Value minimise(SymmetricSet& set, Points& p, double power, int steps) {
@@ -138,9 +136,30 @@ Points coset_representatives(const Points& p, const Points& left, const Points& 
       all.push_back(mortise::canonical(best));
     }
   std::sort(all.begin(), all.end(), [](const Quaterniond& a, const Quaterniond& b) {
-    return coordinates(a).reverse().eval()(3) > coordinates(b).reverse().eval()(3);
+    return std::array{-a.w(), a.x(), a.y(), a.z()} < std::array{-b.w(), b.x(), b.y(), b.z()};
   });
   return all;
+}
+
+/// The file's representatives, one for each orbit under the two groups.
+Points read_representatives(const std::string& path, const Points& left, const Points& right) {
+  std::ifstream file(path);
+  if (!file) throw mortise::FileError(path, "cannot be read");
+  std::string line;
+  while (file.peek() == '#') std::getline(file, line);
+  std::getline(file, line);  // covering radius
+  Points p;
+  double w = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  while (file >> w >> x >> y >> z) {
+    const Quaterniond q = Quaterniond(w, x, y, z).normalized();
+    bool known = false;
+    for (const Quaterniond& member : p)
+      for (const Quaterniond& h : right)
+        for (const Quaterniond& g : left)
+          known = known || mortise::rotation_angle(g * member * h, q) < 1e-8;
+    if (!known) p.push_back(q);
+  }
+  return p;
 }
 
 }  // namespace
@@ -150,7 +169,7 @@ int main(int argc, char** argv) {
   std::size_t representatives = 60;
   int starts = 10, steps = 60, kicks = 0, patience = 100;
   unsigned seed = 1;
-  std::string right_name = "C1", output;
+  std::string right_name = "C1", input, output;
   program.add_option("--cosets", representatives, "Cosets of the icosahedral group: count / 60");
   program.add_option("--right", right_name, "Group acting from the right: Cn, Dn, T, O, I");
   program.add_option("--starts", starts, "Random starts");
@@ -158,6 +177,8 @@ int main(int argc, char** argv) {
   program.add_option("--kicks", kicks, "Disturbed restarts from each start's result");
   program.add_option("--patience", patience, "Kicks without a gain before the next start");
   program.add_option("--seed", seed, "Of the random starts");
+  program.add_option("--from", input,
+                     "File of a set with these groups: the first start goes on from it");
   program.add_option("-o", output, "Where the best set so far is kept");
   CLI11_PARSE(program, argc, argv);
   try {
@@ -172,7 +193,7 @@ int main(int argc, char** argv) {
            << " left cosets of the icosahedral rotation group; covering radius in degrees first.\n"
            << "# Made by optimise_rotations --cosets " << representatives << " --right "
            << right_name << " --steps " << steps << " --kicks " << kicks << " --patience "
-           << patience << " --seed " << seed << "\n"
+           << patience << " --seed " << seed << (input.empty() ? "\n" : ", from an earlier set\n")
            << std::setprecision(9) << kDegrees * radius << "\n"
            << std::fixed << std::setprecision(12);
       for (const Quaterniond& q : coset_representatives(p, left, right))
@@ -188,7 +209,13 @@ int main(int argc, char** argv) {
         q.normalize();
       }
       SymmetricSet set(left, right, free);
-      auto value = anneal(set, p, 8.0, steps, best);
+      const bool go_on = start == 0 && !input.empty();
+      if (go_on) p = read_representatives(input, left, right);
+      if (p.size() != free)
+        throw mortise::FileError(input, "expected " + std::to_string(free) +
+                                            " representatives up to symmetry, found " +
+                                            std::to_string(p.size()));
+      auto value = anneal(set, p, go_on ? 1024.0 : 8.0, steps, best);
       const auto keep = [&] {
         if (value.radius >= best) return;
         best = value.radius;
