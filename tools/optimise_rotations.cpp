@@ -10,14 +10,13 @@
 //   f_p = (1/p) log sum_v R_v^p,    v the corners of the cells, R_v their distance from the
 //   representative,
 //
-// by L-BFGS for p = 8, 16, ... : f_p tends to the logarithm of the covering radius. If a corner v
-// is the combination sum_k mu_k p_k of its four nearest members, a displacement d of member i
-// changes R_v by
-// -(mu_i / sum mu) d.u, u the direction from it to v (differentiate v.p_k = cos R and v.v = 1).
+// by L-BFGS for p = 8, 16, ... : f_p tends to the logarithm of the covering radius (halved). Then
+// it kicks some members about, or moves one into the deepest hole, and keeps what has become
+// better.
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <deque>
@@ -30,147 +29,18 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/rigid_motion.hpp"
 #include "rotations/groups.hpp"
-#include "rotations/voronoi_cell.hpp"
+#include "symmetric_set.hpp"
 
 namespace {
 
 using Eigen::Index;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Eigen::Vector4d;
-using mortise::VoronoiCell;
-using Points = std::vector<Quaterniond>;
+using mortise::displaced;
+using mortise::SymmetricSet;
+using Points = mortise::Rotations;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-Vector4d coordinates(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
-
-Quaterniond displaced(const Quaterniond& p, const Vector3d& d) {
-  return (p * Quaterniond(1.0, d.x(), d.y(), d.z())).normalized();
-}
-
-/// A set with symmetry: evaluates f_p and its gradient, and the covering radius.
-class SymmetricSet {
- public:
-  SymmetricSet(Points left, Points right, std::size_t representatives)
-      : left_(std::move(left)), right_(std::move(right)) {
-    const double members = static_cast<double>(left_.size() * right_.size() * representatives);
-    ball_ = std::cbrt(0.75 * std::numbers::pi / members);  // radius of a ball of the mean volume
-  }
-
-  [[nodiscard]] double ball() const { return ball_; }
-
-  struct Value {
-    double f = 0.0;
-    double radius = 0.0;  // rotation angle
-    Eigen::VectorXd gradient;
-    Quaterniond deepest;  // the rotation that far from the set
-  };
-
-  Value evaluate(const Points& p, double power) {
-    refresh(p);
-    struct Term {
-      Index member;
-      double log_radius;
-      Vector3d slope;  // of R_v along the member's displacement
-    };
-    std::vector<Term> terms;
-    Value value;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      cut(p, i);
-      if (cell_.covering_angle() > value.radius) {
-        value.radius = cell_.covering_angle();
-        value.deepest = displaced(p[i], cell_.farthest_corner());
-      }
-      const auto& faces = cell_.faces();
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        for (const Vector3d& y : faces[f].ring) {
-          std::size_t on[3] = {f, 0, 0};
-          int count = 1;
-          bool first = true;
-          for (std::size_t k = 0; k < faces.size() && first && count < 3; ++k) {
-            if (k == f || std::abs(faces[k].normal.dot(y) - faces[k].height) > 1e-10) continue;
-            first = k > f;
-            on[count++] = k;
-          }
-          if (!first || count < 3) continue;
-          Eigen::Matrix4d nearest;
-          nearest.col(0) << 1.0, 0.0, 0.0, 0.0;
-          for (int k = 0; k < 3; ++k) nearest.col(k + 1) = near_[faces[on[k]].neighbour];
-          const Vector4d mu = nearest.inverse() * Vector4d(1.0, y.x(), y.y(), y.z());
-          const double share = mu(0) / mu.sum();
-          const double length = y.norm();
-          if (!std::isfinite(share)) continue;
-          terms.push_back({static_cast<Index>(i), std::log(std::atan(length)),
-                           -std::clamp(share, -4.0, 4.0) / (std::atan(length) * length) * y});
-        }
-    }
-    double top = -1e300;
-    for (const Term& t : terms) top = std::max(top, t.log_radius);
-    double sum = 0.0;
-    value.gradient = Eigen::VectorXd::Zero(3 * static_cast<Index>(p.size()));
-    for (const Term& t : terms) {
-      const double weight = std::exp(power * (t.log_radius - top));
-      sum += weight;
-      // Four cells share the corner and each is counted; moving one member moves the corner in all
-      // four.
-      value.gradient.segment<3>(3 * t.member) += 4.0 * weight * t.slope;
-    }
-    value.f = top + std::log(sum) / power;
-    value.gradient /= sum;
-    return value;
-  }
-
- private:
-  struct Copy {
-    std::size_t left, right, point;
-  };
-
-  // Lists, for each representative, the members near enough to cut its cell; kept until points have
-  // moved far.
-  void refresh(const Points& p) {
-    const double margin = 0.4 * ball_;
-    bool fresh = listed_.size() == p.size();
-    for (std::size_t i = 0; fresh && i < p.size(); ++i)
-      fresh = mortise::rotation_angle(listed_[i], p[i]) < margin;  // margin / 2 as quaternions
-    if (fresh) return;
-    listed_ = p;
-    const double reach_cos = std::cos(2.0 * kWidestCell * ball_ + 2.0 * margin);
-    lists_.assign(p.size(), {});
-    for (std::size_t j = 0; j < p.size(); ++j)
-      for (std::size_t r = 0; r < right_.size(); ++r) {
-        const Quaterniond pr = p[j] * right_[r];
-        for (std::size_t l = 0; l < left_.size(); ++l) {
-          const Vector4d copy = coordinates(left_[l] * pr);
-          for (std::size_t i = 0; i < p.size(); ++i)
-            if (std::abs(copy.dot(coordinates(p[i]))) > reach_cos && (i != j || l + r > 0))
-              lists_[i].push_back({l, r, j});
-        }
-      }
-  }
-
-  void cut(const Points& p, std::size_t i) {
-    near_.clear();
-    const Quaterniond back = p[i].conjugate();
-    for (const Copy& c : lists_[i]) {
-      const Vector4d n = coordinates(back * (left_[c.left] * p[c.point] * right_[c.right]));
-      near_.push_back(n(0) < 0.0 ? Vector4d(-n) : n);
-    }
-    std::sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) { return a(0) > b(0); });
-    // A wider cell than this is clipped by the cube: it then has the cube's radius, still far too
-    // large to be kept.
-    cell_.reset(kWidestCell * ball_);
-    for (std::size_t k = 0; k < near_.size(); ++k) cell_.cut(near_[k], static_cast<Index>(k));
-  }
-
-  static constexpr double kWidestCell = 1.9;
-  Points left_, right_;
-  double ball_ = 0.0;
-  Points listed_;
-  std::vector<std::vector<Copy>> lists_;
-  std::vector<Vector4d> near_;
-  VoronoiCell cell_;
-};
 
 /// Lowers f_power by L-BFGS from `p`, in place; stops after `steps`, or when no step helps.
 SymmetricSet::Value minimise(SymmetricSet& set, Points& p, double power, int steps) {
@@ -266,9 +136,30 @@ Points coset_representatives(const Points& p, const Points& left, const Points& 
       all.push_back(mortise::canonical(best));
     }
   std::sort(all.begin(), all.end(), [](const Quaterniond& a, const Quaterniond& b) {
-    return coordinates(a).reverse().eval()(3) > coordinates(b).reverse().eval()(3);
+    return std::array{-a.w(), a.x(), a.y(), a.z()} < std::array{-b.w(), b.x(), b.y(), b.z()};
   });
   return all;
+}
+
+/// The file's representatives, one for each orbit under the two groups.
+Points read_representatives(const std::string& path, const Points& left, const Points& right) {
+  std::ifstream file(path);
+  if (!file) throw mortise::FileError(path, "cannot be read");
+  std::string line;
+  while (file.peek() == '#') std::getline(file, line);
+  std::getline(file, line);  // covering radius
+  Points p;
+  double w = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  while (file >> w >> x >> y >> z) {
+    const Quaterniond q = Quaterniond(w, x, y, z).normalized();
+    bool known = false;
+    for (const Quaterniond& member : p)
+      for (const Quaterniond& h : right)
+        for (const Quaterniond& g : left)
+          known = known || mortise::rotation_angle(g * member * h, q) < 1e-8;
+    if (!known) p.push_back(q);
+  }
+  return p;
 }
 
 }  // namespace
@@ -278,7 +169,7 @@ int main(int argc, char** argv) {
   std::size_t representatives = 60;
   int starts = 10, steps = 60, kicks = 0, patience = 100;
   unsigned seed = 1;
-  std::string right_name = "C1", output;
+  std::string right_name = "C1", input, output;
   program.add_option("--cosets", representatives, "Cosets of the icosahedral group: count / 60");
   program.add_option("--right", right_name, "Group acting from the right: Cn, Dn, T, O, I");
   program.add_option("--starts", starts, "Random starts");
@@ -286,6 +177,8 @@ int main(int argc, char** argv) {
   program.add_option("--kicks", kicks, "Disturbed restarts from each start's result");
   program.add_option("--patience", patience, "Kicks without a gain before the next start");
   program.add_option("--seed", seed, "Of the random starts");
+  program.add_option("--from", input,
+                     "File of a set with these groups: the first start goes on from it");
   program.add_option("-o", output, "Where the best set so far is kept");
   CLI11_PARSE(program, argc, argv);
   try {
@@ -294,6 +187,18 @@ int main(int argc, char** argv) {
     if (representatives % right.size() != 0)
       throw mortise::InputError("--cosets must be a multiple of the order of --right");
     const std::size_t free = representatives / right.size();
+    const auto write = [&](const std::string& path, const Points& p, double radius) {
+      std::ofstream file(path);
+      file << "# Representatives (w x y z) of " << representatives
+           << " left cosets of the icosahedral rotation group; covering radius in degrees first.\n"
+           << "# Made by optimise_rotations --cosets " << representatives << " --right "
+           << right_name << " --steps " << steps << " --kicks " << kicks << " --patience "
+           << patience << " --seed " << seed << (input.empty() ? "\n" : ", from an earlier set\n")
+           << std::setprecision(9) << kDegrees * radius << "\n"
+           << std::fixed << std::setprecision(12);
+      for (const Quaterniond& q : coset_representatives(p, left, right))
+        file << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
+    };
     double best = 1e300;
     for (int start = 0; start < starts; ++start) {
       std::mt19937_64 random(seed * 1'000'003ULL + static_cast<unsigned>(start));
@@ -304,7 +209,19 @@ int main(int argc, char** argv) {
         q.normalize();
       }
       SymmetricSet set(left, right, free);
-      auto value = anneal(set, p, 8.0, steps, best);
+      const bool go_on = start == 0 && !input.empty();
+      if (go_on) p = read_representatives(input, left, right);
+      if (p.size() != free)
+        throw mortise::FileError(input, "expected " + std::to_string(free) +
+                                            " representatives up to symmetry, found " +
+                                            std::to_string(p.size()));
+      auto value = anneal(set, p, go_on ? 1024.0 : 8.0, steps, best);
+      const auto keep = [&] {
+        if (value.radius >= best) return;
+        best = value.radius;
+        if (!output.empty()) write(output, p, best);
+      };
+      keep();
       int since = 0;
       for (int kick = 0; kick < kicks && since < patience && value.radius < 1.03 * best; ++kick) {
         Points trial = kicked(p, value.deepest, set.ball(), random);
@@ -314,25 +231,11 @@ int main(int argc, char** argv) {
         since = 0;
         p = std::move(trial);
         value = result;
+        keep();
       }
-      const double radius = value.radius;
-      std::printf("start %d: %.4f degrees%s\n", start, kDegrees * radius,
-                  radius < best ? " *" : "");
+      std::printf("start %d: %.4f degrees, best %.4f\n", start, kDegrees * value.radius,
+                  kDegrees * best);
       std::fflush(stdout);
-      if (radius >= best) continue;
-      best = radius;
-      if (output.empty()) continue;
-      std::ofstream file(output);
-      file << "# Representatives (w x y z) of " << representatives
-           << " left cosets of the icosahedral rotation group.\n# Made by optimise_rotations "
-              "--cosets "
-           << representatives << " --right " << right_name << " --seed " << seed << " --steps "
-           << steps << " --kicks " << kicks << ", start " << start
-           << ".\n# Covering radius in degrees:\n"
-           << std::setprecision(9) << kDegrees * radius << "\n"
-           << std::fixed << std::setprecision(12);
-      for (const Quaterniond& q : coset_representatives(p, left, right))
-        file << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
     }
   } catch (const mortise::InputError& e) {
     std::fprintf(stderr, "optimise_rotations: error: %s\n", e.what());

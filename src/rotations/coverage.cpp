@@ -25,12 +25,13 @@ struct Moments {
   double angle = 0.0;
 };
 
-// Both, per solid angle, of the ray from q to quaternion angle rho: integrals of sin^2 t and 2 t
-// sin^2 t over 0..rho.
-Moments ray_moments(double rho) {
-  const double s2 = std::sin(2.0 * rho);
-  const double sine = std::sin(rho);
-  return {0.5 * rho - 0.25 * s2, 0.5 * (rho * rho - rho * s2 + sine * sine)};
+// Both, per solid angle, of the ray from q to the quaternion angle rho = atan2(rise, run): the
+// integrals of sin^2 t and 2 t sin^2 t over 0..rho.
+Moments ray_moments(double rise, double run) {
+  const double rho = std::atan2(rise, run);
+  const double norm_sq = rise * rise + run * run;
+  const double sin_2rho = 2.0 * rise * run / norm_sq;
+  return {0.5 * rho - 0.25 * sin_2rho, 0.5 * (rho * rho - rho * sin_2rho + rise * rise / norm_sq)};
 }
 
 // Adds the cone from q over the part of `face` seen between three unit directions.
@@ -68,8 +69,7 @@ void add_cone(const VoronoiCell::Face& face, const Eigen::Vector3d& a, const Eig
   for (const Node& node : kNodes) {
     const Eigen::Vector3d p = node.l0 * a + node.l1 * b + node.l2 * c;
     const double length = p.norm();
-    const double rho = std::atan2(face.height * length, face.normal.dot(p));
-    const Moments ray = ray_moments(rho);
+    const Moments ray = ray_moments(face.height * length, face.normal.dot(p));
     const double weight = node.weight * half_det / (length * length * length);
     sum.volume += weight * ray.volume;
     sum.angle += weight * ray.angle;

@@ -78,11 +78,13 @@ Eigen::Matrix4Xd hopf_rotations(Eigen::Index count) {
   for (const Direction& direction : healpix_centres(n)) {
     const double c = std::sqrt(0.5 * (1.0 + direction.z));  // cos and sin of half the colatitude
     const double s = std::sqrt(0.5 * (1.0 - direction.z));
+    const Eigen::Quaterniond tilt(c, -s * std::sin(direction.longitude),
+                                  s * std::cos(direction.longitude), 0.0);
     for (Eigen::Index k = 0; k < turns; ++k) {
       const double half = kPi * static_cast<double>(k) / static_cast<double>(turns);
-      const Eigen::Quaterniond q = canonical({c * std::cos(half), c * std::sin(half),
-                                              s * std::cos(direction.longitude + half),
-                                              s * std::sin(direction.longitude + half)});
+      // First the turn about z, then the least rotation that carries z to the direction.
+      const Eigen::Quaterniond turn(std::cos(half), 0.0, 0.0, std::sin(half));
+      const Eigen::Quaterniond q = canonical(tilt * turn);
       quaternions.col(column++) << q.w(), q.x(), q.y(), q.z();
     }
   }

@@ -9,23 +9,10 @@
 namespace mortise {
 namespace {
 
-// Orders points of the plane with this normal round their centre and drops repeated ones.
-void order_ring(const Eigen::Vector3d& normal, std::vector<Eigen::Vector3d>& points,
-                double tolerance) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& p : points) centre += p / static_cast<double>(points.size());
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  const Eigen::Vector3d v = normal.cross(u);
-  const auto turn = [&](const Eigen::Vector3d& p) {
-    return std::atan2((p - centre).dot(v), (p - centre).dot(u));
-  };
-  std::sort(points.begin(), points.end(),
-            [&](const auto& a, const auto& b) { return turn(a) < turn(b); });
-  const auto same = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return (a - b).cwiseAbs().maxCoeff() <= tolerance;
-  };
-  points.erase(std::unique(points.begin(), points.end(), same), points.end());
-  while (points.size() > 1 && same(points.front(), points.back())) points.pop_back();
+// Grows with the angle of (x, y) from -2 to 2, without trigonometry.
+double pseudo_angle(double x, double y) {
+  const double p = x / (std::abs(x) + std::abs(y));
+  return y < 0.0 ? p - 1.0 : 1.0 - p;
 }
 
 }  // namespace
@@ -39,7 +26,8 @@ Eigen::Vector4d relative_rotation(const Eigen::Vector4d& a, const Eigen::Vector4
 }
 
 void VoronoiCell::reset(double half_edge) {
-  half_edge_ = half_edge;
+  // Corners this near a plane lie on it: rounding must not decide. It makes no cell too small.
+  slack_ = 1e-12 * std::max(1.0, 1e-3 * half_edge);
   faces_.resize(6);
   for (int f = 0; f < 6; ++f) {
     const int axis = f / 2;
@@ -59,9 +47,26 @@ void VoronoiCell::reset(double half_edge) {
   farthest_ = std::sqrt(3.0) * half_edge;
 }
 
-// Corners this near a plane lie on it: rounding must not decide. It makes no cell too small.
-double VoronoiCell::slack(const Eigen::Vector3d& y) const {
-  return std::max({1e-12, 1e-12 * y.cwiseAbs().maxCoeff(), 1e-15 * half_edge_});
+// Puts the corners of the new face in order round it and drops repeated ones: each edge cut gives
+// two.
+void VoronoiCell::order_section(const Eigen::Vector3d& normal) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const auto& y : section_) centre += y;
+  centre /= static_cast<double>(section_.size());
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  turns_.clear();
+  for (const auto& y : section_)
+    turns_.emplace_back(pseudo_angle((y - centre).dot(u), (y - centre).dot(v)), y);
+  std::sort(turns_.begin(), turns_.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto same = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return (a - b).cwiseAbs().maxCoeff() <= 4.0 * slack_;
+  };
+  section_.clear();
+  for (const auto& [turn, y] : turns_)
+    if (section_.empty() || !same(section_.back(), y)) section_.push_back(y);
+  while (section_.size() > 1 && same(section_.front(), section_.back())) section_.pop_back();
 }
 
 void VoronoiCell::cut(const Eigen::Vector4d& relative, Eigen::Index neighbour) {
@@ -78,7 +83,7 @@ void VoronoiCell::cut(const Eigen::Vector4d& relative, Eigen::Index neighbour) {
   const auto above = [&](const Eigen::Vector3d& y) { return normal.dot(y) - height; };
   const bool cuts = std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
     return std::any_of(face.ring.begin(), face.ring.end(),
-                       [&](const auto& y) { return above(y) > slack(y); });
+                       [&](const auto& y) { return above(y) > slack_; });
   });
   if (!cuts) return;
 
@@ -90,11 +95,9 @@ void VoronoiCell::cut(const Eigen::Vector4d& relative, Eigen::Index neighbour) {
       const Eigen::Vector3d& b = face.ring[i + 1 < face.ring.size() ? i + 1 : 0];
       const double da = above(a);
       const double db = above(b);
-      const double slack_a = slack(a);
-      const double slack_b = slack(b);
-      if (da <= slack_a) ring_.push_back(a);
-      if (std::abs(da) <= slack_a) section_.push_back(a);
-      if ((da < -slack_a && db > slack_b) || (da > slack_a && db < -slack_b)) {
+      if (da <= slack_) ring_.push_back(a);
+      if (std::abs(da) <= slack_) section_.push_back(a);
+      if ((da < -slack_ && db > slack_) || (da > slack_ && db < -slack_)) {
         ring_.push_back(a + (b - a) * (da / (da - db)));
         section_.push_back(ring_.back());
       }
@@ -104,9 +107,7 @@ void VoronoiCell::cut(const Eigen::Vector4d& relative, Eigen::Index neighbour) {
   faces_.erase(std::remove_if(faces_.begin(), faces_.end(),
                               [](const Face& face) { return face.ring.size() < 3; }),
                faces_.end());
-  double tolerance = 0.0;
-  for (const auto& y : section_) tolerance = std::max(tolerance, 4.0 * slack(y));
-  order_ring(normal, section_, tolerance);
+  if (!section_.empty()) order_section(normal);
   if (section_.size() >= 3) faces_.push_back({normal, height, neighbour, section_});
 
   double farthest_sq = 0.0;

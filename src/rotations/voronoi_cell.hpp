@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "mortise/rotations/rotation_index.hpp"
@@ -42,11 +43,12 @@ class VoronoiCell {
   [[nodiscard]] double covering_angle() const;  ///< largest rotation angle from q; radians
 
  private:
-  [[nodiscard]] double slack(const Eigen::Vector3d& y) const;
+  void order_section(const Eigen::Vector3d& normal);
 
   std::vector<Face> faces_;
   std::vector<Eigen::Vector3d> ring_, section_;  // scratch of cut()
-  double half_edge_ = 0.0;
+  std::vector<std::pair<double, Eigen::Vector3d>> turns_;
+  double slack_ = 0.0;
   double farthest_ = 0.0;
 };
 
