@@ -12,11 +12,13 @@ double ball_transform(double k, double r) {
   using std::numbers::pi;
   const double volume = 4.0 / 3.0 * pi * r * r * r;
   const double u = 2.0 * pi * k * r;
-  // 3 (sin u - u cos u) / u^3; below 0.3 the difference cancels, so its Taylor series (error < 1e-15) is used.
+  // 3 (sin u - u cos u) / u^3; below 0.3 the difference cancels, so its Taylor series (error <
+  // 1e-15) is used.
   if (std::abs(u) < 0.3) {
     const double s = u * u;
     return volume *
-           (1.0 - s / 10.0 * (1.0 - s / 28.0 * (1.0 - s / 54.0 * (1.0 - s / 88.0 * (1.0 - s / 130.0)))));
+           (1.0 -
+            s / 10.0 * (1.0 - s / 28.0 * (1.0 - s / 54.0 * (1.0 - s / 88.0 * (1.0 - s / 130.0)))));
   }
   return volume * 3.0 * (std::sin(u) - u * std::cos(u)) / (u * u * u);
 }
