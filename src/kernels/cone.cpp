@@ -80,33 +80,35 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
     throw InputError("fitted_cone: expected 0 < k_max and 0 < r_min <= r_max, got " +
                      std::to_string(k_max) + ", " + std::to_string(r_min) + " and " +
                      std::to_string(r_max));
-  if (!(tolerance >= 1e-11 && tolerance <= 0.1))
-    throw InputError("fitted_cone: tolerance must be in [1e-11, 0.1], got " +
+  if (!(tolerance >= 1e-10 && tolerance <= 0.1))
+    throw InputError("fitted_cone: tolerance must be in [1e-10, 0.1], got " +
                      std::to_string(tolerance));
   // A Fourier extension: as the series only has to hold on a part of its period it converges
   // geometrically although phi^ is not periodic; the coefficients are the least-squares solution
   // with the smallest norm.
-  constexpr int kMostModes = 400;
+  const int kMostModes = 100 + static_cast<int>(20.0 * k_max * r_max);
   const double width = std::max(r_max - r_min, 1e-3 * r_max);
   ConeSeries series(kernel);
   series.period_ = 2.5 * width;
-  const double volume = kernel.volume(1.0);
+  const double volume = kernel.volume(r_max);
   for (int modes = 4;; modes += 2) {
-    if (modes > kMostModes) throw InputError("fitted_cone: more than 400 modes would be needed");
+    if (modes > kMostModes)
+      throw InputError("fitted_cone: the tolerance is out of reach of double precision");
     const QuadratureRule rule = gauss_legendre(2 * modes + 8, r_max - width, r_max);
+    const Eigen::VectorXd row_scale = rule.weights.cwiseSqrt();
     Eigen::MatrixXcd basis(rule.nodes.size(), modes);
     for (Eigen::Index j = 0; j < basis.rows(); ++j)
       for (int m = 0; m < modes; ++m)
-        basis(j, m) = std::polar(std::sqrt(rule.weights[j]),
-                                 -2.0 * pi * (m - modes / 2) * rule.nodes[j] / series.period_);
+        basis(j, m) =
+            std::polar(row_scale[j], -2.0 * pi * (m - modes / 2) * rule.nodes[j] / series.period_);
     const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
     // Small singular values would only add coefficients that are large and cancel.
-    const double least = std::max(0.01 * tolerance, 1e-13) * svd.singularValues()[0];
+    const double least = std::max(1e-4 * tolerance, 1e-15) * svd.singularValues()[0];
     const Eigen::VectorXd inverse =
         svd.singularValues().unaryExpr([&](double s) { return s > least ? 1.0 / s : 0.0; });
     series.radii_ = rule.nodes;
-    series.samples_to_modes_ = svd.matrixV() * inverse.asDiagonal() * svd.matrixU().adjoint() *
-                               rule.weights.cwiseSqrt().asDiagonal();
+    series.samples_to_modes_ =
+        svd.matrixV() * inverse.asDiagonal() * svd.matrixU().adjoint() * row_scale.asDiagonal();
     double worst = 0.0;
     const int k_count = 9 + static_cast<int>(4.0 * k_max * r_max), r_count = 4 * modes;
     for (int i = 0; i < k_count; ++i) {
@@ -117,7 +119,7 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
         std::complex<double> value = 0.0;
         for (int m = 0; m < modes; ++m)
           value += g[m] * std::polar(1.0, -2.0 * pi * (m - modes / 2) * r / series.period_);
-        worst = std::max(worst, std::abs(value - kernel.transform(k, r)) / (r * r * r * volume));
+        worst = std::max(worst, std::abs(value - kernel.transform(k, r)) / volume);
       }
     }
     if (worst <= tolerance) return series;

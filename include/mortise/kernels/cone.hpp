@@ -56,7 +56,7 @@ class ConeSeries {
 /// The cone as it may be altered where no slice looks: the shortest series of period 2.5 (r_max -
 /// r_min) that gives phi^(k; r) for k <= k_max and r_min <= r <= r_max with error <= tolerance of
 /// the volume; no weighting of balls.
-/// @throws InputError unless 0 < k_max, 0 < r_min <= r_max, 1e-11 <= tolerance <= 0.1
+/// @throws InputError unless 0 < k_max, 0 < r_min <= r_max, 1e-10 <= tolerance <= 0.1
 [[nodiscard]] ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min,
                                      double r_max, double tolerance);
 
