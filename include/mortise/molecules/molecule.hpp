@@ -14,8 +14,8 @@ struct Atom {
   std::string residue_name;  ///< "ALA"
   std::string chain;         ///< chain identifier of the file; may be empty
   int residue_number = 0;
-  std::string insertion_code;  ///< empty or one letter
-  std::string element;         ///< "C", "Zn"; empty if it cannot be told
+  std::string insertion_code;                          ///< empty or one letter
+  std::string element;                                 ///< "C", "Zn"; empty if it cannot be told
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< angstrom, the file's frame
   bool hetero = false;                                 ///< neither amino acid nor nucleotide
 };

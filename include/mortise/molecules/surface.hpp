@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Solvent-accessible surface: which atoms are exposed.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mortise/molecules/molecule.hpp"
+
+namespace mortise {
+
+struct SurfaceOptions {
+  double probe_radius = 1.4;  ///< angstrom, >= 0; water
+  int points_per_atom = 100;  ///< >= 1; the area of a molecule is good to 0.5% with 100
+  int threads = 1;            ///< 0 = all cores; never changes the result
+};
+
+/// Area of each ball's sphere, grown by the probe, that lies in no other grown ball; N values,
+/// length unit squared.
+///
+/// Shrake and Rupley, J. Mol. Biol. 79 (1973) 351-371, on the points of a Fibonacci lattice.
+///
+/// @param centres  3 x N
+/// @param radii    N radii >= 0, without the probe
+/// @throws InputError if the counts differ, a value is not finite, a radius is negative or an
+/// option out of range Time O(N points neighbours), memory O(N).
+[[nodiscard]] Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres,
+                                               const Eigen::VectorXd& radii,
+                                               const SurfaceOptions& options = {});
+
+/// The same for a molecule's atoms with their atom_radii(), square angstrom.
+[[nodiscard]] Eigen::VectorXd accessible_areas(const Molecule& molecule,
+                                               const SurfaceOptions& options = {});
+
+}  // namespace mortise

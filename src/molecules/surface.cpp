@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shrake-Rupley areas on a sorted cell list.
+#include "mortise/molecules/surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/core/threads.hpp"
+#include "mortise/molecules/radii.hpp"
+
+namespace mortise {
+namespace {
+
+/// Nearly even unit vectors: equal steps in z, the golden angle in longitude.
+Eigen::Matrix3Xd fibonacci_sphere(int count) {
+  Eigen::Matrix3Xd points(3, count);
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double ring = std::sqrt(1.0 - z * z);
+    points.col(i) << ring * std::cos(golden_angle * i), ring * std::sin(golden_angle * i), z;
+  }
+  return points;
+}
+
+/// Balls sorted by cubic cell; only occupied cells take memory, so far outliers cost nothing.
+class CellList {
+ public:
+  CellList(const Eigen::Matrix3Xd& centres, double edge)
+      : entries_(static_cast<std::size_t>(centres.cols())) {
+    const Eigen::Vector3d low = centres.rowwise().minCoeff();
+    const Eigen::Vector3d extent = centres.rowwise().maxCoeff() - low;
+    const double step = std::max(edge, extent.maxCoeff() / 1e6);  // keeps the keys within 64 bits
+    for (int axis = 0; axis < 3; ++axis)
+      sizes_[axis] = static_cast<std::int64_t>(extent[axis] / step) + 3;  // a rim of empty cells
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      const Eigen::Vector3d cell = (centres.col(static_cast<Eigen::Index>(i)) - low) / step;
+      entries_[i] = {
+          key(static_cast<std::int64_t>(cell[0]) + 1, static_cast<std::int64_t>(cell[1]) + 1,
+              static_cast<std::int64_t>(cell[2]) + 1),
+          static_cast<int>(i)};
+    }
+    std::sort(entries_.begin(), entries_.end());
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+      if (i == 0 || entries_[i].key != entries_[i - 1].key) starts_.push_back(i);
+    starts_.push_back(entries_.size());
+  }
+
+  [[nodiscard]] std::size_t cells() const { return starts_.size() - 1; }
+
+  /// Calls body(ball) for the balls of one occupied cell.
+  template <typename Body>
+  void for_each_in(std::size_t cell, const Body& body) const {
+    for (std::size_t i = starts_[cell]; i < starts_[cell + 1]; ++i) body(entries_[i].ball);
+  }
+  /// Calls body(ball) for the balls of one occupied cell and its 26 neighbours.
+  template <typename Body>
+  void for_each_around(std::size_t cell, const Body& body) const {
+    const std::int64_t centre = entries_[starts_[cell]].key;
+    for (std::int64_t dx = -1; dx <= 1; ++dx)
+      for (std::int64_t dy = -1; dy <= 1; ++dy) {
+        const std::int64_t row = centre + key(dx, dy, 0);
+        auto it = std::lower_bound(entries_.begin(), entries_.end(), Entry{row - 1, -1});
+        for (; it != entries_.end() && it->key <= row + 1; ++it) body(it->ball);
+      }
+  }
+
+ private:
+  struct Entry {
+    std::int64_t key = 0;
+    int ball = 0;
+    bool operator<(const Entry& other) const {
+      return key != other.key ? key < other.key : ball < other.ball;
+    }
+  };
+  [[nodiscard]] std::int64_t key(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return (x * sizes_[1] + y) * sizes_[2] + z;
+  }
+  std::array<std::int64_t, 3> sizes_{};
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> starts_;
+};
+
+/// A neighbour j hides the direction u of ball i if u . (x_j - x_i) > (R_i^2 + d^2 - R_j^2) / (2
+/// R_i).
+struct Cap {
+  Eigen::Vector3d towards;
+  double threshold = 0.0;
+  double depth = 0.0;  ///< threshold / d, the cosine of the cap's half angle
+};
+
+void check(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
+           const SurfaceOptions& options) {
+  const std::string where = "accessible_areas: ";
+  if (centres.cols() != radii.size())
+    throw InputError(where + "expected one radius per centre, found " +
+                     std::to_string(radii.size()) + " radii for " + std::to_string(centres.cols()) +
+                     " centres");
+  if (!centres.allFinite() || !radii.allFinite())
+    throw InputError(where + "expected finite centres and radii");
+  if (radii.size() > 0 && !(radii.minCoeff() >= 0.0))
+    throw InputError(where + "radii must be >= 0, got " + std::to_string(radii.minCoeff()));
+  if (!(options.probe_radius >= 0.0 && std::isfinite(options.probe_radius)))
+    throw InputError(where + "probe_radius must be >= 0, got " +
+                     std::to_string(options.probe_radius));
+  if (options.points_per_atom < 1)
+    throw InputError(where + "points_per_atom must be >= 1, got " +
+                     std::to_string(options.points_per_atom));
+}
+
+}  // namespace
+
+Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
+                                 const SurfaceOptions& options) {
+  check(centres, radii, options);
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(radii.size());
+  if (radii.size() == 0) return areas;
+  const Eigen::VectorXd grown = radii.array() + options.probe_radius;
+  if (grown.maxCoeff() == 0.0) return areas;
+  const Eigen::Matrix3Xd points = fibonacci_sphere(options.points_per_atom);
+  const CellList cells(centres, 2.0 * grown.maxCoeff());
+
+  const auto area_of = [&](int i, const std::vector<int>& around, std::vector<Cap>& caps) {
+    const double radius = grown[i];
+    caps.clear();
+    for (const int j : around) {
+      if (j == i) continue;
+      const Eigen::Vector3d d = centres.col(j) - centres.col(i);
+      const double reach = radius + grown[j];
+      const double d_sq = d.squaredNorm();
+      if (d_sq >= reach * reach) continue;
+      const double threshold = (radius * radius + d_sq - grown[j] * grown[j]) / (2.0 * radius);
+      const double distance = std::sqrt(d_sq);
+      if (threshold >= distance) continue;  // j lies within i and hides nothing
+      // Of two identical balls the first keeps the surface.
+      if (threshold <= -distance) {
+        if (distance > 0.0 || grown[j] > radius || j < i) return 0.0;
+        continue;
+      }
+      caps.push_back({d, threshold, threshold / distance});
+    }
+    // The widest caps first: most hidden points are then found at the first test or two.
+    std::sort(caps.begin(), caps.end(),
+              [](const Cap& a, const Cap& b) { return a.depth < b.depth; });
+    int exposed = 0;
+    std::size_t last =
+        0;  // points follow each other round the ball, so the last cap often hides the next one too
+    for (Eigen::Index p = 0; p < points.cols(); ++p) {
+      const Eigen::Vector3d u = points.col(p);
+      const auto hides = [&](const Cap& cap) { return u.dot(cap.towards) > cap.threshold; };
+      if (last < caps.size() && hides(caps[last])) continue;
+      last = static_cast<std::size_t>(std::find_if(caps.begin(), caps.end(), hides) - caps.begin());
+      exposed += last == caps.size();
+    }
+    return 4.0 * std::numbers::pi * radius * radius * exposed / options.points_per_atom;
+  };
+
+  constexpr std::size_t kCellsPerTask = 32;
+  const std::size_t tasks = (cells.cells() + kCellsPerTask - 1) / kCellsPerTask;
+  parallel_for(tasks, options.threads, [&](std::size_t task, int) {
+    std::vector<int> around;
+    std::vector<Cap> caps;
+    const std::size_t end = std::min(cells.cells(), (task + 1) * kCellsPerTask);
+    for (std::size_t cell = task * kCellsPerTask; cell < end; ++cell) {
+      around.clear();
+      cells.for_each_around(cell, [&](int j) { around.push_back(j); });
+      cells.for_each_in(cell, [&](int i) {
+        if (grown[i] > 0.0) areas[i] = area_of(i, around, caps);
+      });
+    }
+  });
+  return areas;
+}
+
+Eigen::VectorXd accessible_areas(const Molecule& molecule, const SurfaceOptions& options) {
+  return accessible_areas(atom_positions(molecule), atom_radii(molecule), options);
+}
+
+}  // namespace mortise
