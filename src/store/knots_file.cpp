@@ -2,6 +2,9 @@
 // The knots file, and telling Mortise's files apart.
 #include "mortise/store/knots_file.hpp"
 
+#include <filesystem>
+#include <fstream>
+
 #include "mortise/core/errors.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "store/records.hpp"
@@ -40,7 +43,9 @@ KnotsFile read_knots_file(const std::string& path) {
 }
 
 StoredKind stored_kind(const std::string& path) {
-  std::string start = read_whole_file(path).substr(0, 8);
+  if (!std::filesystem::exists(path)) throw FileError(path, "no such file");
+  std::string start(8, '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), 8);
   if (!hdf5::has_signature(start)) return StoredKind::kNotHdf5;
   const hdf5::Reader in(path);
   if (!in.has_attribute("/", "mortise_file")) return StoredKind::kOtherHdf5;
