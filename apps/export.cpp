@@ -41,11 +41,15 @@ std::string export_text(const Run& run, ExportFormat format, const Options& opti
       return export_csv(run, options.choice);
     case ExportFormat::kJson:
       return export_json(run, options.choice);
-    case ExportFormat::kZdock:
+    case ExportFormat::kZdock: {
       (void)locate_input(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
       (void)locate_input(run.moving, run.provenance, "moving",
                          {options.moving_path, options.force});
-      return export_zdock(run, options.choice);
+      Run named = run;  // the header should name the files as they are found now
+      if (!options.fixed_path.empty()) named.fixed.path = options.fixed_path;
+      if (!options.moving_path.empty()) named.moving.path = options.moving_path;
+      return export_zdock(named, options.choice);
+    }
     case ExportFormat::kPdb:
     case ExportFormat::kMmcif:
       break;
