@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <csignal>
 #include <set>
 #include <thread>
@@ -95,13 +96,16 @@ TEST(AtomicFile, ConcurrentWritersTakeTurns) {
   const std::string path = scratch / "f";
   write_file_atomically(path, "start");
   std::vector<std::thread> writers;
+  std::atomic<int> busy{4};
   for (int w = 0; w < 4; ++w)
     writers.emplace_back([&, w] {
       for (int i = 0; i < 30; ++i)
         write_file_atomically(path, std::string(2000 + 500 * w, static_cast<char>('a' + w)));
+      --busy;
     });
   bool whole = true;
-  for (int i = 0; i < 200; ++i) {
+  int reads = 0;
+  for (; busy > 0; ++reads) {
     const std::string bytes = read_whole_file(path);
     if (bytes == "start") continue;
     const int w = bytes.empty() ? -1 : bytes[0] - 'a';
@@ -110,6 +114,7 @@ TEST(AtomicFile, ConcurrentWritersTakeTurns) {
   }
   for (std::thread& writer : writers) writer.join();
   EXPECT_TRUE(whole);
+  EXPECT_GT(reads, 0);
   EXPECT_THAT(names_in(scratch.path()), ::testing::ElementsAre("f"));
 }
 
