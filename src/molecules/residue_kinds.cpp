@@ -108,13 +108,18 @@ std::string element_from_name(std::string_view padded_name, std::string_view res
   return symbol_of(letters.substr(0, 1));
 }
 
-bool element_fits_name(std::string_view symbol, std::string_view name) {
+bool element_fits_name(std::string_view symbol, std::string_view name,
+                       std::string_view residue_name) {
   const std::string letters = upper_letters(name);
   if (letters.empty() || symbol.empty()) return false;
   if (symbol == "H" && letters[0] == 'D') return true;
   if (symbol.size() == 1) return letters[0] == symbol[0];
-  return letters.size() >= 2 && letters[0] == symbol[0] &&
-         letters[1] == std::toupper(static_cast<unsigned char>(symbol[1]));
+  if (letters.size() < 2 || letters[0] != symbol[0] ||
+      letters[1] != std::toupper(static_cast<unsigned char>(symbol[1])))
+    return false;
+  // In a polymer CD is a carbon and HG a hydrogen, whatever the column says.
+  const bool polymer = is_amino_acid(residue_name) || is_nucleotide(residue_name);
+  return !polymer || symbol == "Se" || symbol == "Br" || symbol == "Cl" || symbol == "As";
 }
 
 }  // namespace mortise::molecules

@@ -22,7 +22,9 @@ namespace mortise::molecules {
 [[nodiscard]] std::string element_from_name(std::string_view padded_name,
                                             std::string_view residue_name);
 
-/// True if an atom of this name can be of this element: "FE1" can be Fe, "CA" C or Ca, not N.
-[[nodiscard]] bool element_fits_name(std::string_view symbol, std::string_view name);
+/// True if an atom of this name can be of this element: "FE1" can be Fe, "CA" of an ion Ca, never
+/// N.
+[[nodiscard]] bool element_fits_name(std::string_view symbol, std::string_view name,
+                                     std::string_view residue_name);
 
 }  // namespace mortise::molecules

@@ -62,7 +62,7 @@ AtomRecord parse_atom(std::string_view line, const std::string& path, long numbe
   }
   std::string column_element;
   if (line.size() >= 78) column_element = element_symbol(trim(line.substr(76, 2)));
-  if (!column_element.empty() && element_fits_name(column_element, atom.name)) {
+  if (!column_element.empty() && element_fits_name(column_element, atom.name, atom.residue_name)) {
     atom.element = column_element;
   } else {
     atom.element = element_from_name(name_columns, atom.residue_name);

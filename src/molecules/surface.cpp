@@ -137,12 +137,10 @@ Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::V
       if (d_sq >= reach * reach) continue;
       const double threshold = (radius * radius + d_sq - grown[j] * grown[j]) / (2.0 * radius);
       const double distance = std::sqrt(d_sq);
-      if (threshold >= distance) continue;  // j lies within i and hides nothing
-      // Of two identical balls the first keeps the surface.
-      if (threshold <= -distance) {
-        if (distance > 0.0 || grown[j] > radius || j < i) return 0.0;
-        continue;
-      }
+      if (distance == 0.0 ? grown[j] > radius || (grown[j] == radius && j < i)
+                          : threshold <= -distance)
+        return 0.0;  // i lies within j; of identical balls the first keeps the surface
+      if (threshold >= distance || distance == 0.0) continue;  // j lies within i and hides nothing
       caps.push_back({d, threshold, threshold / distance});
     }
     // The widest caps first: most hidden points are then found at the first test or two.

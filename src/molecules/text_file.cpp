@@ -8,8 +8,8 @@
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -59,8 +59,10 @@ std::string_view trim(std::string_view text) {
 std::string read_text(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
+  if (status.type() == std::filesystem::file_type::not_found)
     throw FileError(path, "expected a structure file, found none");
+  if (status.type() == std::filesystem::file_type::none)  // a folder on the way is closed to us
+    throw FileError(path, "cannot be opened: " + error.message());
   if (std::filesystem::is_directory(status))
     throw FileError(path, "expected a structure file, found a directory");
   std::ifstream file(path, std::ios::binary);
@@ -112,20 +114,20 @@ Format detect_format(const std::string& path, std::string_view text) {
 
 double parse_coordinate(std::string_view text, char axis, const std::string& path, long line) {
   const std::string_view bare = trim(text);
-  char buffer[64];
-  char* end = buffer;
-  double value = 0.0;
-  if (!bare.empty() && bare.size() < sizeof buffer) {
-    buffer[bare.copy(buffer, sizeof buffer - 1)] = '\0';
-    value = std::strtod(buffer, &end);
-  }
-  const std::string where = std::string(1, axis) + " coordinate: expected a number, found '";
-  if (end == buffer || *end != '\0') throw FileError(path, line, where + std::string(bare) + "'");
-  if (!(std::abs(value) < 9999.0))  // 9999.000 is how some programs write an unknown position
+  const auto refuse = [&](const std::string& expected) {
     throw FileError(path, line,
-                    std::string(1, axis) +
-                        " coordinate: expected a finite number below 9999 in size, found '" +
+                    std::string(1, axis) + " coordinate: expected " + expected + ", found '" +
                         std::string(bare) + "'");
+  };
+  // from_chars knows no locale, no hexadecimal and no leading plus sign.
+  const std::string_view digits = bare.starts_with('+') ? bare.substr(1) : bare;
+  const char* end = digits.data() + digits.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (error == std::errc::invalid_argument || stop != end) refuse("a number");
+  // 9999.000 is how some programs write an unknown position.
+  if (error != std::errc() || !(std::abs(value) < 9999.0))
+    refuse("a finite number below 9999 in size");
   return value;
 }
 

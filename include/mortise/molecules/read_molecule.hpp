@@ -14,8 +14,8 @@ namespace mortise {
 /// "complex.pdb#2:A".
 struct MoleculeSpec {
   std::string path;
-  int model = 0;                    ///< number of the MODEL record; 0 = the first of the file
-  std::vector<std::string> chains;  ///< empty = all; "_" = the chain without a name
+  int model = 0;                         ///< number of the MODEL record; 0 = the first of the file
+  std::vector<std::string> chains = {};  ///< empty = all; "_" = the chain without a name
 };
 
 /// Parses "path[#model][:chain,chain]". A file whose whole name exists is taken as it stands.
