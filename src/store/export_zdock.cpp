@@ -64,7 +64,7 @@ std::string export_zdock(const Run& run, const ExportOptions& options) {
     const Eigen::Vector3d shift = r - motion * l;
     if (!(shift.cwiseAbs().maxCoeff() < kFarthest))
       throw InputError("format zdock: pose " + std::to_string(i + 1) + " is too far away");
-    steps.push_back((shift / kSpacing).array().round().matrix().cast<long>());
+    steps.emplace_back((shift / kSpacing).array().round().matrix().cast<long>());
     farthest = std::max(farthest, steps.back().cwiseAbs().maxCoeff());
   }
   const long n = 2 * (farthest + 1);  // so that -N/2 < t < N/2

@@ -75,15 +75,19 @@ std::vector<Figure> read_figures(const Reader& file, const std::string& group) {
 }
 
 void check_names(const std::vector<std::string>& names, const std::string& where) {
+  const auto refuse = [&](const std::string& name, const char* why) {
+    std::string message = where;
+    message.append(": the name \"").append(name).append("\" ").append(why);
+    throw InputError(message);
+  };
   std::vector<std::string> sorted = names;
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const std::string& name = sorted[i];
     if (name.empty() || name == "." || name.find('/') != std::string::npos ||
         name.find('\0') != std::string::npos)
-      throw InputError(where + ": expected a name without \"/\", got \"" + name + "\"");
-    if (i > 0 && name == sorted[i - 1])
-      throw InputError(where + ": the name \"" + name + "\" appears twice");
+      refuse(name, "cannot be stored: expected one that is not empty, not \".\" and without \"/\"");
+    if (i > 0 && name == sorted[i - 1]) refuse(name, "appears twice");
   }
 }
 

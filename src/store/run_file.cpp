@@ -73,6 +73,7 @@ void write_poses(Writer& file, const Run& run) {
   file.group("/poses/channels");
   for (std::size_t c = 0; c < run.poses.channel_names.size(); ++c) {
     std::vector<double> column;
+    column.reserve(poses.size());
     for (const Pose& pose : poses) column.push_back(pose.channels[c]);
     file.array("/poses/channels/" + run.poses.channel_names[c], {n}, column.data());
   }
