@@ -29,6 +29,9 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 void install_interrupt_handler();
 
 /// Each adds one subcommand; its callback does the work and throws on errors.
+void add_dock(CLI::App& program);
+void add_export(CLI::App& program);
+void add_info(CLI::App& program);
 void add_rotations(CLI::App& program);
 
 }  // namespace mortise::app

@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  mortise::app::add_dock(program);
+  mortise::app::add_export(program);
+  mortise::app::add_info(program);
   mortise::app::add_rotations(program);
   try {
     mortise::app::install_interrupt_handler();

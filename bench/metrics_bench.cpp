@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "metrics/bodies.hpp"
-#include "mortise/metrics/pose_distance.hpp"
+#include "mortise/core/pose_distance.hpp"
 #include "mortise/metrics/reference_complex.hpp"
 
 namespace mortise {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Centroid and inertia of the moving body.
-#include "mortise/metrics/pose_distance.hpp"
+#include "mortise/core/pose_distance.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distance of two poses: by hand, and against the sum over all points.
-#include "mortise/metrics/pose_distance.hpp"
+#include "mortise/core/pose_distance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise export: a run's poses as PDB, mmCIF, CSV, JSON or ZDOCK .out.
+#include "mortise/store/export.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "mortise/store/inputs.hpp"
+
+namespace mortise::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  CommonOptions common;
+  std::string run;
+  std::string format;
+  std::string output;
+  ExportOptions choice;
+  std::string fixed_path;
+  std::string moving_path;
+  bool force = false;
+};
+
+// "run.h5" and "cif" become "run_poses.cif": beside the run, and never the name of an input.
+std::string default_output(const std::string& run, const std::string& format) {
+  const fs::path path(run);
+  return (path.parent_path() /
+          (path.stem().string() + "_poses." + (format == "zdock" ? "out" : format)))
+      .string();
+}
+
+std::string export_text(const Run& run, ExportFormat format, const Options& options) {
+  switch (format) {
+    case ExportFormat::kCsv:
+      return export_csv(run, options.choice);
+    case ExportFormat::kJson:
+      return export_json(run, options.choice);
+    case ExportFormat::kZdock: {
+      (void)locate_input(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
+      (void)locate_input(run.moving, run.provenance, "moving",
+                         {options.moving_path, options.force});
+      Run named = run;  // the header should name the files as they are found now
+      if (!options.fixed_path.empty()) named.fixed.path = options.fixed_path;
+      if (!options.moving_path.empty()) named.moving.path = options.moving_path;
+      return export_zdock(named, options.choice);
+    }
+    case ExportFormat::kPdb:
+    case ExportFormat::kMmcif:
+      break;
+  }
+  (void)chosen_poses(run, format, options.choice);  // fail before the molecules are read
+  if (run.kind != "dock")
+    throw InputError("format " + options.format + " is for molecules; this is a " + run.kind +
+                     " run");
+  Molecule fixed;
+  if (options.choice.complex)
+    fixed = read_input_molecule(run.fixed, run.provenance, "fixed",
+                                {options.fixed_path, options.force});
+  const Molecule moving = read_input_molecule(run.moving, run.provenance, "moving",
+                                              {options.moving_path, options.force});
+  return format == ExportFormat::kPdb ? export_pdb(run, fixed, moving, options.choice)
+                                      : export_mmcif(run, fixed, moving, options.choice);
+}
+
+void refuse_to_overwrite_inputs(const std::string& output, const Run& run, const Options& options) {
+  for (const std::string& input :
+       {options.run, run.fixed.path, run.moving.path, options.fixed_path, options.moving_path,
+        (fs::path(run.provenance.working_directory) / run.fixed.path).string(),
+        (fs::path(run.provenance.working_directory) / run.moving.path).string()}) {
+    std::error_code error;
+    if (!input.empty() && fs::equivalent(output, input, error) && !error)
+      throw FileError(output, "expected a file to write, found an input of this run");
+  }
+}
+
+void execute(const Options& options) {
+  const ExportFormat format = parse_export_format(options.format);
+  const bool to_stdout = options.output == "-";
+  if (to_stdout && options.common.json)
+    throw InputError("export: --json and -o - both want stdout; choose one");
+  const Run run = read_run(options.run);
+  const std::string output =
+      options.output.empty() ? default_output(options.run, options.format) : options.output;
+  if (!to_stdout) {
+    refuse_to_overwrite_inputs(output, run, options);
+    check_writable(output, 0);
+  }
+  const std::string text = export_text(run, format, options);
+  if (to_stdout) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      throw InputError("export: writing to stdout failed");
+    return;
+  }
+  write_file_atomically(output, text);
+  const std::size_t count = chosen_poses(run, format, options.choice).size();
+  if (options.common.json)
+    std::printf(
+        "%s\n",
+        nlohmann::ordered_json{{"file", output}, {"format", options.format}, {"poses", count}}
+            .dump()
+            .c_str());
+  else if (!options.common.quiet)
+    std::printf("wrote %zu %s to %s\n", count, count == 1 ? "pose" : "poses", output.c_str());
+}
+
+}  // namespace
+
+void add_export(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand(
+      "export", "Write a run's poses as PDB, mmCIF, CSV, JSON or ZDOCK .out");
+  command.add_option("run", options->run, "Run file")->required();
+  command.add_option("--format", options->format, "pdb, cif, csv, json or zdock")->required();
+  command
+      .add_option("--top", options->choice.top,
+                  "Best poses to write; 0 = 10 for pdb and cif, all otherwise")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--pose", options->choice.pose, "Only the pose of this rank, from 1")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--top");
+  command.add_flag("--complex", options->choice.complex,
+                   "pdb, cif: the receptor too, in every model");
+  command.add_option("-o,--output", options->output,
+                     "File to write; - = stdout; default: RUN_poses.FORMAT beside the run");
+  command.add_option("--fixed", options->fixed_path, "Where the receptor's file is now");
+  command.add_option("--moving", options->moving_path, "Where the ligand's file is now");
+  command.add_flag("--force", options->force, "Accept input files that have changed since the run");
+  add_common_options(command, options->common,
+                     "  mortise export run.h5 --format pdb --top 10 --complex\n"
+                     "  mortise export run.h5 --format csv -o - | head\n"
+                     "  mortise export run.h5 --format zdock --top 2000 -o run.out");
+  command.callback([options] { execute(*options); });
+}
+
+}  // namespace mortise::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A run's poses in the formats of other programs. The layouts are described in docs/formats.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mortise/molecules/molecule.hpp"
+#include "mortise/store/run_file.hpp"
+
+namespace mortise {
+
+enum class ExportFormat { kPdb, kMmcif, kCsv, kJson, kZdock };
+
+/// "pdb", "cif", "csv", "json", "zdock". @throws InputError for any other name, listing these
+[[nodiscard]] ExportFormat parse_export_format(const std::string& name);
+
+struct ExportOptions {
+  int top = 0;           ///< best poses written; 0 = 10 as structures, all as tables
+  int pose = 0;          ///< only the pose of this rank, from 1; 0 = the top ones
+  bool complex = false;  ///< structures: the fixed body too, in every model
+};
+
+/// Indices into run.poses.poses of the poses that the options choose, in rank order.
+/// @throws InputError if there are no poses, no such rank, or a number is negative
+[[nodiscard]] std::vector<std::size_t> chosen_poses(const Run& run, ExportFormat format,
+                                                    const ExportOptions& options);
+
+/// One row per pose: rank, score, channels, qw qx qy qz, tx ty tz, rotation_index, cluster,
+/// metrics. Numbers read back bit for bit; an absent metric is an empty field.
+[[nodiscard]] std::string export_csv(const Run& run, const ExportOptions& options = {});
+
+/// The same as one JSON object, with the two inputs; an absent metric is null.
+[[nodiscard]] std::string export_json(const Run& run, const ExportOptions& options = {});
+
+/// A multi-MODEL PDB file of the moved body; the MODEL number is the rank. With options.complex the
+/// fixed body comes first in each model and moving chains that share a name with a fixed one get a
+/// free letter, named in a REMARK.
+/// @param fixed   used with options.complex only
+/// @throws InputError for a run of parts, and where the format has no room (see format_pdb_atoms)
+[[nodiscard]] std::string export_pdb(const Run& run, const Molecule& fixed, const Molecule& moving,
+                                     const ExportOptions& options = {});
+
+/// The same as mmCIF; pdbx_PDB_model_num is the rank.
+[[nodiscard]] std::string export_mmcif(const Run& run, const Molecule& fixed,
+                                       const Molecule& moving, const ExportOptions& options = {});
+
+/// The .out layout of ZDOCK 3.0.2, on a grid of 0.001 so that whole steps place every atom within
+/// 0.001 A.
+/// @throws InputError for a run of parts, for input paths with blanks (the layout cannot carry
+/// them), and for
+///         translations beyond 1,000,000 A
+[[nodiscard]] std::string export_zdock(const Run& run, const ExportOptions& options = {});
+
+}  // namespace mortise

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The knots file, and telling Mortise's files apart.
+#include "mortise/store/knots_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "store/records.hpp"
+
+namespace mortise {
+
+void write_knots_file(const std::string& path, const KnotsFile& file) {
+  check_knots(file.knots, "write_knots_file");
+  std::vector<std::string> names;
+  for (const Figure& figure : file.figures) names.push_back(figure.name);
+  hdf5::check_names(names, "write_knots_file: figures");
+  hdf5::Writer out;
+  hdf5::write_head(out, "knots", kKnotsFormatVersion, file.provenance);
+  hdf5::write_figures(out, "/figures", file.figures);
+  out.group("/body");
+  out.attribute("/body", "path", file.source_path);
+  out.attribute("/body", "sha256", file.source_sha256);
+  hdf5::write_knots(out, "/body", file.knots);
+  write_file_atomically(path, out.bytes());
+}
+
+KnotsFile read_knots_file(const std::string& path) {
+  const hdf5::Reader in(path);
+  KnotsFile file;
+  file.provenance = hdf5::read_head(in, "knots", kKnotsFormatVersion);
+  file.figures = hdf5::read_figures(in, "/figures");
+  file.source_path = in.text("/body", "path");
+  file.source_sha256 = in.text("/body", "sha256");
+  file.knots = hdf5::read_knots(in, "/body");
+  try {
+    check_knots(file.knots, "/body/knots");
+  } catch (const InputError& e) {
+    in.fail(e.what());
+  }
+  return file;
+}
+
+StoredKind stored_kind(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw FileError(path, "no such file");
+  std::string start(8, '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), 8);
+  if (!hdf5::has_signature(start)) return StoredKind::kNotHdf5;
+  const hdf5::Reader in(path);
+  if (!in.has_attribute("/", "mortise_file")) return StoredKind::kOtherHdf5;
+  const std::string kind = in.text("/", "mortise_file");
+  return kind == "run"     ? StoredKind::kRun
+         : kind == "knots" ? StoredKind::kKnots
+                           : StoredKind::kOtherHdf5;
+}
+
+}  // namespace mortise

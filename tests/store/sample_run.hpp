@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small run made by hand, and a directory of its own for each test's files.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "mortise/store/run_file.hpp"
+
+namespace mortise::testing {
+
+/// A fresh directory, removed with all in it at the end.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "mortise-test-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+  [[nodiscard]] std::string operator/(const std::string& name) const {
+    return (path_ / name).string();
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline Eigen::Quaterniond random_rotation(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return canonical(
+      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)));
+}
+
+inline Knots sample_knots(int count, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.5, 30.0);
+  Knots knots;
+  knots.points.resize(4, count);
+  knots.weights.resize(count);
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < 4; ++k) knots.points(k, i) = uniform(random);
+    knots.weights(i) = {uniform(random), -uniform(random)};
+  }
+  return knots;
+}
+
+/// A dock run of `pose_count` poses with every field away from its default.
+inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-60.0, 60.0);
+  Run run;
+  run.provenance = {"0.1.0", "mortise dock a.pdb b.pdb", "/somewhere", R"({"spacing": 2.0})",
+                    7,       "2026-01-31T12:00:00Z",     "bench"};
+  run.complete = true;
+  run.seconds = 12.5;
+  run.figures = {{"fft_ratio", 1.07}, {"best_score", 321.0}, {"a_third", -1e-300}};
+  run.fixed = {"a.pdb",
+               "a.pdb:A",
+               std::string(64, 'a'),
+               sample_knots(40, random),
+               {random_rotation(random), Eigen::Vector3d(1, 2, 3)}};
+  run.moving = {"b.pdb",
+                "b.pdb",
+                std::string(64, 'b'),
+                sample_knots(30, random),
+                {random_rotation(random), Eigen::Vector3d(-4, 5, 6)}};
+  run.rotations.covering_radius = 0.22;
+  run.rotations.quaternions.resize(4, 50);
+  run.rotations.done.assign(50, 1);
+  run.rotations.done[3] = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Quaterniond q = random_rotation(random);
+    run.rotations.quaternions.col(i) = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  }
+  run.poses.channel_names = {"shape", "electrostatics"};
+  run.metrics = {{"interface_rmsd", {}}, {"fnat", {}}};
+  for (int i = 0; i < pose_count; ++i) {
+    Pose pose;
+    pose.moving_in_fixed = {random_rotation(random),
+                            Eigen::Vector3d(uniform(random), uniform(random), uniform(random))};
+    pose.score = 1000.0 / (i + 1);
+    pose.channels = {pose.score - 0.1, 0.1};
+    pose.rotation_index = (7 * i) % 50;
+    pose.cluster = i / 2;
+    run.poses.poses.push_back(pose);
+    run.metrics[0].values.push_back(0.1 * i);
+    run.metrics[1].values.push_back(i == 1 ? std::numeric_limits<double>::quiet_NaN()
+                                           : 1.0 / (i + 1));
+  }
+  return run;
+}
+
+inline Checkpoint sample_checkpoint(int count) {
+  Checkpoint checkpoint;
+  checkpoint.channel_names = {"shape", "electrostatics"};
+  checkpoint.translation = Eigen::Matrix3Xd::Random(3, count);
+  checkpoint.channels = Eigen::MatrixXd::Random(2, count);
+  for (int i = 0; i < count; ++i) {
+    checkpoint.rotation_index.push_back(i % 50);
+    checkpoint.score.push_back(static_cast<float>(100.0 / (i + 3)));
+  }
+  return checkpoint;
+}
+
+}  // namespace mortise::testing
