@@ -42,7 +42,7 @@ inline constexpr Eigen::Index kMaxRotations = 10'000'000;
 /// @param method   kAuto takes the best there is for this count
 /// @param threads  for the measurement; 0 = all cores
 /// @throws InputError if the count is out of range or the method cannot make it (the message says
-/// which it can) Time O(N log N): about 0.02 ms of one core per rotation; none for stored sets,
+/// which it can) Time O(N log N): about 0.01 ms of one core per rotation; none for stored sets,
 /// which bring their radius.
 [[nodiscard]] RotationSet rotation_set(Eigen::Index count,
                                        RotationMethod method = RotationMethod::kAuto,
