@@ -4,36 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <numbers>
 #include <random>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/fourier/nfft.hpp"
 
-namespace {
-std::atomic<long> allocations = 0;
-}
-
-// Replaced for the whole test program, to count. Aligned forms included: they are what grids use.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto unit = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+long count_of_allocations();  // counting_new.cpp
 
 namespace mortise {
 namespace {
@@ -100,9 +78,9 @@ TEST(Nfft, AllocatesNothingOnceWarm) {
     const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, 500);
     const Eigen::VectorXcd weights = Eigen::VectorXcd::Random(500);
     (void)plan.transform(points, weights);
-    const long before = allocations;
+    const long before = count_of_allocations();
     (void)plan.transform(points, weights);
-    EXPECT_EQ(allocations - before, 0) << n;
+    EXPECT_EQ(count_of_allocations() - before, 0) << n;
   }
 }
 
