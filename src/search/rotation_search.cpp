@@ -126,7 +126,7 @@ struct RotationSearch::Impl {
     Candidate* out = found.data() + index * options.per_rotation;
     for (const GridPeak& peak : peaks) {
       std::array<double, 3> cell;
-      for (int d = 0; d < 3; ++d) cell[d] = peak.cell[d] + peak.offset[d];
+      for (int d = 0; d < 3; ++d) cell[d] = static_cast<float>(peak.cell[d]) + peak.offset[d];
       const Eigen::Vector3f t = translation(cell).cast<float>();
       *out++ = {static_cast<std::int32_t>(index), peak.score, {t[0], t[1], t[2]}};
     }
