@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace mortise::app {
@@ -28,8 +29,26 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 [[nodiscard]] bool interrupted();
 void install_interrupt_handler();
 
+/// Thrown after Ctrl-C once everything is saved; what() tells the user how to go on. The program
+/// prints it and exits with 130.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the user typed, quoted so that a shell reads it back; main() sets it.
+void set_command_line(int argc, const char* const* argv);
+[[nodiscard]] const std::string& command_line();
+/// `word` as a shell needs it: in quotes where it holds more than letters, digits and ./:,#=_-
+[[nodiscard]] std::string shell_word(const std::string& word);
+
+/// Largest resident memory of this process so far, 10^6 bytes.
+[[nodiscard]] double peak_memory_mb();
+
 /// Each adds one subcommand; its callback does the work and throws on errors.
+void add_benchmark(CLI::App& program);
 void add_dock(CLI::App& program);
+void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);
 void add_info(CLI::App& program);
 void add_rotations(CLI::App& program);

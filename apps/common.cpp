@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Common options, the progress bar and Ctrl-C.
+// Common options, the progress bar, Ctrl-C, the command line and the memory used.
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -28,7 +29,34 @@ std::string clock_text(double seconds) {
   return text;
 }
 
+std::string& command_line_text() {
+  static std::string text;
+  return text;
+}
+
 }  // namespace
+
+void set_command_line(int argc, const char* const* argv) {
+  command_line_text() = "mortise";
+  for (int i = 1; i < argc; ++i) command_line_text() += " " + shell_word(argv[i]);
+}
+
+const std::string& command_line() { return command_line_text(); }
+
+std::string shell_word(const std::string& word) {
+  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789./:,#=_-+@%";
+  if (!word.empty() && word.front() != '#' && word.find_first_not_of(plain) == std::string::npos)
+    return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+double peak_memory_mb() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;  // Linux counts in KiB
+}
 
 void install_interrupt_handler() {
   struct sigaction action = {};

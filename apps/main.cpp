@@ -14,10 +14,16 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  mortise::app::add_benchmark(program);
   mortise::app::add_dock(program);
+  mortise::app::add_evaluate(program);
   mortise::app::add_export(program);
   mortise::app::add_info(program);
   mortise::app::add_rotations(program);
+  program.footer(
+      "Exit codes: 0 done; 1 the input or the options are at fault; 2 internal error;\n"
+      "130 stopped by Ctrl-C, with what was done so far saved where the command says so.");
+  mortise::app::set_command_line(argc, argv);
   try {
     mortise::app::install_interrupt_handler();
     program.parse(argc, argv);
@@ -26,6 +32,9 @@ int main(int argc, char** argv) {
     if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
     std::fprintf(stderr, "mortise: error: %s\n", e.what());
     return 1;
+  } catch (const mortise::app::Interrupted& e) {
+    std::fprintf(stderr, "mortise: interrupted: %s\n", e.what());
+    return 130;
   } catch (const mortise::InputError& e) {
     std::fprintf(stderr, "mortise: error: %s\n", e.what());
     return 1;

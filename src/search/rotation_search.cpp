@@ -126,7 +126,7 @@ struct RotationSearch::Impl {
     Candidate* out = found.data() + index * options.per_rotation;
     for (const GridPeak& peak : peaks) {
       std::array<double, 3> cell;
-      for (int d = 0; d < 3; ++d) cell[d] = peak.cell[d] + peak.offset[d];
+      for (int d = 0; d < 3; ++d) cell[d] = static_cast<float>(peak.cell[d]) + peak.offset[d];
       const Eigen::Vector3f t = translation(cell).cast<float>();
       *out++ = {static_cast<std::int32_t>(index), peak.score, {t[0], t[1], t[2]}};
     }
@@ -283,11 +283,17 @@ Eigen::Vector3d RotationSearch::translation_of(int i, int j, int k) const {
 }
 
 double bare_fft_seconds(const std::array<int, 3>& grid_size) {
-  const std::vector<int> size(grid_size.begin(), grid_size.end());
-  const auto forward =
-      FftPlan<float>::real_to_complex(contiguous_layout(size), false, PlanRigor::measure);
-  const auto backward =
-      FftPlan<float>::complex_to_real(contiguous_layout(size), false, PlanRigor::measure);
+  // Both arrays contiguous: the half spectrum's rows are nz / 2 + 1 long, not nz.
+  const std::array<int, 3>& size = grid_size;
+  const std::ptrdiff_t row = size[2], half_row = size[2] / 2 + 1;
+  const FftLayout to_half{
+      {{size[0], size[1] * row, size[1] * half_row}, {size[1], row, half_row}, {size[2], 1, 1}},
+      {}};
+  const FftLayout to_real{
+      {{size[0], size[1] * half_row, size[1] * row}, {size[1], half_row, row}, {size[2], 1, 1}},
+      {}};
+  const auto forward = FftPlan<float>::real_to_complex(to_half, false, PlanRigor::measure);
+  const auto backward = FftPlan<float>::complex_to_real(to_real, false, PlanRigor::measure);
   const std::size_t reals = static_cast<std::size_t>(size[0]) * size[1] * size[2];
   AlignedVector<float> real(reals, 0.0F);
   AlignedVector<std::complex<float>> half(static_cast<std::size_t>(size[0]) * size[1] *

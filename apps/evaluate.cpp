@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise evaluate: measures a run's poses against the known complex.
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/metrics/reference_complex.hpp"
+#include "mortise/molecules/read_molecule.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "mortise/store/inputs.hpp"
+#include "pose_table.hpp"
+#include "quality_summary.hpp"
+
+namespace mortise::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string run;
+  std::string reference_fixed;
+  std::string reference_moving;
+  std::string fixed_path;
+  std::string moving_path;
+  bool force = false;
+};
+
+std::string shown(const ComplexMetrics& m) {
+  char text[160];
+  std::snprintf(text, sizeof text, "i-RMSD %.2f A, L-RMSD %.2f A, fnat %.2f, DockQ %.3f, %s",
+                m.interface_rmsd, m.ligand_rmsd, m.fnat, m.dockq,
+                std::string(to_string(m.capri)).c_str());
+  return text;
+}
+
+void print_match(const char* label, const ResidueMatch& match) {
+  std::printf("%-12s %zu of the reference's %zu residues matched\n", label, match.pairs.size(),
+              match.reference_residues);
+}
+
+void print_first(const char* label, const std::optional<int>& rank) {
+  std::printf("  %-28s %s\n", label, rank ? std::to_string(*rank).c_str() : "none");
+}
+
+void print_summary(const Run& run, const ReferenceSummary& reference,
+                   const ComplexMetrics& superposed, const QualitySummary& summary) {
+  print_match("receptor", reference.fixed);
+  print_match("ligand", reference.moving);
+  std::printf("%-12s %zu residues, %zu of them matched; %zu contacts, %zu of them matched\n",
+              "interface", reference.interface_residues, reference.interface_residues_matched,
+              reference.native_contacts, reference.native_contacts_matched);
+  std::printf("%-12s %s\n", "superposed", shown(superposed).c_str());
+  std::printf("%-12s i-RMSD %.2f A, L-RMSD %.2f A, fnat %.2f, DockQ %.3f, each of any pose\n\n",
+              "best", summary.best.interface_rmsd, summary.best.ligand_rmsd, summary.best.fnat,
+              summary.best.dockq);
+  std::printf("Rank of the first of %zu poses that is\n", run.poses.poses.size());
+  print_first("acceptable or better", summary.first_acceptable);
+  print_first("medium or better", summary.first_medium);
+  print_first("high", summary.first_high);
+  print_first("within 2.5 A i-RMSD", summary.first_hit);
+  std::printf("\n%s", pose_table(run, 10).c_str());
+}
+
+void execute(const Options& options) {
+  Run run = read_run(options.run);
+  if (run.kind != "dock")
+    throw InputError("evaluate: expected a docking run, got a " + run.kind + " run");
+  if (run.poses.poses.empty()) throw InputError("evaluate: " + options.run + " holds no poses yet");
+  check_writable(options.run);
+  const Molecule fixed =
+      read_input_molecule(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
+  const Molecule moving = read_input_molecule(run.moving, run.provenance, "moving",
+                                              {options.moving_path, options.force});
+  const ReferenceComplex reference(
+      fixed, moving, read_molecule(parse_molecule_spec(options.reference_fixed)).molecule,
+      read_molecule(parse_molecule_spec(options.reference_moving)).molecule);
+
+  std::vector<RigidMotion> poses;
+  for (const Pose& pose : run.poses.poses) poses.push_back(pose.moving_in_fixed);
+  const std::vector<ComplexMetrics> metrics =
+      evaluate_poses(reference, poses, options.common.threads);
+  const ComplexMetrics superposed = reference.evaluate(reference.superposed_pose());
+  set_metrics(run, metrics);
+  write_run(options.run, run);
+
+  const QualitySummary summary = summarise(metrics);
+  if (options.common.json) {
+    Json json = to_json(summary);
+    json["poses"] = poses.size();
+    json["superposed"] = {{"interface_rmsd", superposed.interface_rmsd},
+                          {"ligand_rmsd", superposed.ligand_rmsd},
+                          {"fnat", superposed.fnat},
+                          {"dockq", superposed.dockq},
+                          {"capri", to_string(superposed.capri)}};
+    std::printf("%s\n", json.dump().c_str());
+  } else if (!options.common.quiet) {
+    print_summary(run, reference.summary(), superposed, summary);
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand(
+      "evaluate", "Measure a run's poses against the known complex, add the metrics to the run");
+  command.add_option("run", options->run, "Run file; its metrics are added or replaced")
+      ->required();
+  command
+      .add_option("--reference-fixed", options->reference_fixed,
+                  "Receptor in the complex: FILE, or FILE#MODEL:CHAIN,CHAIN")
+      ->required();
+  command
+      .add_option("--reference-moving", options->reference_moving,
+                  "Ligand in the complex, likewise, in the same frame")
+      ->required();
+  command.add_option("--fixed", options->fixed_path, "Where the receptor's file is now");
+  command.add_option("--moving", options->moving_path, "Where the ligand's file is now");
+  command.add_flag("--force", options->force, "Accept input files that have changed since the run");
+  add_common_options(
+      command, options->common,
+      "  mortise evaluate run.h5 --reference-fixed complex.pdb:A --reference-moving complex.pdb:B\n"
+      "  mortise evaluate run.h5 --reference-fixed rec_b.pdb --reference-moving lig_b.pdb --json\n"
+      "Classes are CAPRI's, from i-RMSD, L-RMSD and fnat. The superposed pose, each unbound body\n"
+      "laid on its own reference, shows what a rigid docking can reach.");
+  command.callback([options] { execute(*options); });
+}
+
+}  // namespace mortise::app
