@@ -22,7 +22,7 @@ struct Pair {
 
 // A block of jittered points 3 apart with a box cut out of its side: the box, and the block less
 // the points within `gap` of the box.
-Pair cut_block(std::mt19937& random, double gap) {
+Pair cut_block(std::mt19937& random) {
   std::uniform_real_distribution<double> jitter(-0.4, 0.4);
   std::vector<Eigen::Vector3d> fixed, moving;
   const Eigen::Vector3d low(-2.0, -7.0, -5.0), high(12.0, 4.0, 3.0);
@@ -34,7 +34,7 @@ Pair cut_block(std::mt19937& random, double gap) {
         const Eigen::Vector3d out = (low - p).cwiseMax(p - high).cwiseMax(0.0);
         if (out.norm() == 0.0)
           moving.push_back(p);
-        else if (out.norm() > gap)
+        else
           fixed.push_back(p);
       }
   const auto knots = [](const std::vector<Eigen::Vector3d>& p) {
@@ -63,9 +63,9 @@ Eigen::Vector4d row_for(const RotationSearch& search, const RigidMotion& pose) {
 class Planted : public testing::Test {
  protected:
   std::mt19937 random{31};
-  Pair pair = cut_block(random, 2.5);
-  DoubleSkinOptions skin{1.4, 4.0};
-  SearchOptions options{.spacing = 1.2, .cutoff = 0.35, .threads = 2};
+  Pair pair = cut_block(random);
+  DoubleSkinOptions skin{1.4, 12.0};
+  SearchOptions options{.spacing = 1.0, .cutoff = 0.7, .spread_width = 6, .threads = 2};
 
   RotationSearch search_at(const Knots& fixed, const Knots& moving, const RigidMotion& pose,
                            int others = 0) {
