@@ -2,10 +2,12 @@
 // parallel_for on oneTBB.
 #include "mortise/core/threads.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,6 +28,10 @@ void parallel_for(std::size_t count, int threads,
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
+  // More threads than cores are given too, where asked for; oneTBB would print a warning instead.
+  std::optional<tbb::global_control> more;
+  if (workers > tbb::this_task_arena::max_concurrency())
+    more.emplace(tbb::global_control::max_allowed_parallelism, workers);
   tbb::task_arena arena(workers);
   arena.execute([&] {
     tbb::parallel_for(
