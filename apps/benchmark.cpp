@@ -1,7 +1,390 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise benchmark: docks a table of known complexes and counts successes.
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include "benchmark_table.hpp"
 #include "commands.hpp"
+#include "docking_job.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/core/version.hpp"
+#include "mortise/metrics/reference_complex.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "quality_summary.hpp"
 
 namespace mortise::app {
-void add_benchmark(CLI::App&) {}
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string table;
+  std::string output;
+  std::string fold;
+  std::vector<std::string> subset;
+  DockArguments arguments;
+  std::uint64_t seed = 1;
+  std::string runs;
+  int jobs = 1;
+  bool force = false;
+};
+
+constexpr int kInterruptedCode = 130;
+
+std::string text_of(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string text_of(const std::optional<int>& rank) { return rank ? std::to_string(*rank) : ""; }
+
+// A start of its own for every pair, whatever else is in the table: FNV-1a of the name, mixed with
+// the seed.
+std::uint64_t pair_seed(std::uint64_t seed, const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : name + ":" + std::to_string(seed))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+// "i/k": every k-th row from the i-th on.
+std::pair<std::size_t, std::size_t> parse_fold(const std::string& text) {
+  if (text.empty()) return {0, 1};
+  unsigned i = 0, k = 0;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%u/%u%n", &i, &k, &used) != 2 ||
+      static_cast<std::size_t>(used) != text.size() || i < 1 || i > k)
+    throw InputError("--fold: expected i/k with 1 <= i <= k, got " + text);
+  return {i - 1, k};
+}
+
+std::vector<BenchmarkPair> chosen_pairs(const Options& options) {
+  const std::vector<BenchmarkPair> all = read_benchmark_pairs(options.table);
+  for (const std::string& name : options.subset)
+    if (std::none_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; }))
+      throw InputError("--subset: " + options.table + " has no pair " + name);
+  const auto [first, step] = parse_fold(options.fold);
+  std::vector<BenchmarkPair> chosen;
+  for (std::size_t i = first; i < all.size(); i += step)
+    if (options.subset.empty() || std::find(options.subset.begin(), options.subset.end(),
+                                            all[i].name) != options.subset.end())
+      chosen.push_back(all[i]);
+  if (chosen.empty()) throw InputError("benchmark: --fold and --subset leave no pair");
+  return chosen;
+}
+
+ResultRow row_of(const BenchmarkPair& pair) {
+  ResultRow row;
+  row["name"] = pair.name;
+  row["difficulty"] = difficulty(pair.unbound_interface_rmsd);
+  row["unbound_interface_rmsd"] = text_of(pair.unbound_interface_rmsd);
+  return row;
+}
+
+// Docks and measures one pair. @throws Interrupted
+ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const Options& options,
+                    const std::string& progress_label) {
+  const auto begin = Clock::now();
+  settings.random_start = pair_seed(options.seed, pair.name);
+  const DockBody fixed = read_dock_body(pair.fixed, settings.read);
+  const DockBody moving = read_dock_body(pair.moving, settings.read);
+  CommonOptions common = options.common;
+  common.quiet = common.quiet || options.jobs > 1;
+  DockWatch watch;
+  watch.progress = make_progress(progress_label, common);
+  DockResult result =
+      dock(fixed, moving, settings,
+           make_provenance(command_line(), settings_json(settings).dump(), *settings.random_start),
+           watch);
+  Run& run = result.run;
+  if (!run.complete) throw Interrupted(pair.name);
+  run.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+
+  const ReferenceComplex reference(
+      fixed.molecule, moving.molecule,
+      read_molecule(parse_molecule_spec(pair.reference_fixed)).molecule,
+      read_molecule(parse_molecule_spec(pair.reference_moving)).molecule);
+  std::vector<RigidMotion> poses;
+  for (const Pose& pose : run.poses.poses) poses.push_back(pose.moving_in_fixed);
+  const std::vector<ComplexMetrics> metrics =
+      evaluate_poses(reference, poses, settings.options.threads);
+  set_metrics(run, metrics);
+  if (!options.runs.empty())
+    write_run((fs::path(options.runs) / (pair.name + ".h5")).string(), run);
+
+  const QualitySummary summary = summarise(metrics);
+  ResultRow row = row_of(pair);
+  row["first_acceptable"] = text_of(summary.first_acceptable);
+  row["first_acceptable_by_rmsd"] = text_of(summary.first_acceptable_by_rmsd);
+  row["first_irmsd_2_5"] = text_of(summary.first_hit);
+  row["first_medium"] = text_of(summary.first_medium);
+  row["first_high"] = text_of(summary.first_high);
+  row["best_interface_rmsd"] = text_of(summary.best.interface_rmsd);
+  row["best_ligand_rmsd"] = text_of(summary.best.ligand_rmsd);
+  row["best_fnat"] = text_of(summary.best.fnat);
+  row["best_dockq"] = text_of(summary.best.dockq);
+  row["superposed_interface_rmsd"] =
+      text_of(reference.evaluate(reference.superposed_pose()).interface_rmsd);
+  row["rotations"] = std::to_string(run.rotations.done.size());
+  row["poses"] = std::to_string(poses.size());
+  row["seconds"] = text_of(run.seconds);
+  return row;
+}
+
+// One pair at work in a process of its own: its memory and time are then its own, and whatever
+// befalls it spares the others.
+struct Worker {
+  BenchmarkPair pair;
+  int result = -1;  // read end of the pipe that its row comes through
+};
+
+std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockSettings& settings,
+                                      const Options& options, const std::string& progress_label) {
+  int ends[2];
+  if (pipe(ends) != 0)
+    throw std::runtime_error(std::string("benchmark: pipe: ") + std::strerror(errno));
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t process = fork();
+  if (process < 0)
+    throw std::runtime_error(std::string("benchmark: fork: ") + std::strerror(errno));
+  if (process > 0) {
+    close(ends[1]);
+    return {process, {pair, ends[0]}};
+  }
+  close(ends[0]);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  int code = getppid() == parent ? 0 : kInterruptedCode;
+  ResultRow row = row_of(pair);
+  try {
+    if (code == 0) row = dock_pair(pair, settings, options, progress_label);
+  } catch (const Interrupted&) {
+    code = kInterruptedCode;
+  } catch (const InputError& e) {
+    row["error"] = e.what();
+  } catch (const std::exception& e) {
+    row["error"] = std::string("internal error: ") + e.what();
+  }
+  const std::string line = csv_line(row);  // far below what a pipe holds
+  if (write(ends[1], line.data(), line.size()) != static_cast<ssize_t>(line.size())) code = 2;
+  _exit(code);  // the parent's objects are not ours to destroy
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+// The row of a worker that has ended; none if it was interrupted.
+std::optional<ResultRow> collect(const Worker& worker, int status, const rusage& usage) {
+  std::string line;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(worker.result, buffer, sizeof buffer)) > 0;)
+    line.append(buffer, static_cast<std::size_t>(n));
+  close(worker.result);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kInterruptedCode) return {};
+  ResultRow row = row_of(worker.pair);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+    row = parse_result_row(line);
+  else
+    row["error"] = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
+                                       : "ended with code " + std::to_string(WEXITSTATUS(status));
+  row["cpu_seconds"] = text_of(seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime));
+  row["peak_memory_mb"] = text_of(static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6);
+  return row;
+}
+
+void print_row(const ResultRow& row, const Options& options) {
+  if (options.common.quiet) return;
+  if (!row["error"].empty())
+    std::fprintf(stderr, "mortise: warning: pair %s failed: %s\n", row["name"].c_str(),
+                 row["error"].c_str());
+  else if (!options.common.json) {
+    const auto rank = [&](const char* column) {
+      return row[column].empty() ? "-" : row[column].c_str();
+    };
+    std::printf("%-8s %-7s acceptable %5s   i-RMSD 2.5 %5s   best i-RMSD %7s A   %7s s\n",
+                row["name"].c_str(), row["difficulty"].c_str(), rank("first_acceptable"),
+                rank("first_irmsd_2_5"), row["best_interface_rmsd"].c_str(),
+                row["seconds"].c_str());
+    std::fflush(stdout);
+  }
+}
+
+// Docks the pairs, at most options.jobs at a time, and gives each row to `keep` as it comes. On
+// Ctrl-C the pairs at work are dropped.
+void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockSettings& settings,
+                const Options& options, const std::function<void(const ResultRow&)>& keep) {
+  std::map<pid_t, Worker> workers;
+  std::size_t next = 0;
+  bool told = false;
+  while (true) {
+    while (!interrupted() && next < pairs.size() &&
+           workers.size() < static_cast<std::size_t>(options.jobs)) {
+      workers.insert(start_worker(
+          pairs[next], settings, options,
+          std::to_string(next + 1) + "/" + std::to_string(pairs.size()) + " " + pairs[next].name));
+      ++next;
+    }
+    if (interrupted() && !told) {  // a terminal tells them itself; others tell only us
+      for (const auto& [process, worker] : workers) kill(process, SIGTERM);
+      told = true;
+    }
+    if (workers.empty()) return;
+    int status = 0;
+    rusage usage = {};
+    const pid_t process = wait4(-1, &status, 0, &usage);
+    const auto worker = workers.find(process);
+    if (process < 0 && errno != EINTR)
+      throw std::runtime_error(std::string("benchmark: wait: ") + std::strerror(errno));
+    if (worker == workers.end()) continue;
+    const std::optional<ResultRow> row = collect(worker->second, status, usage);
+    workers.erase(worker);
+    if (row) keep(*row);
+  }
+}
+
+std::string summary_path(const std::string& output) {
+  const fs::path path(output);
+  return (path.parent_path() / (path.stem().string() + "_summary.csv")).string();
+}
+
+Json success_json(const std::vector<SuccessCount>& counts) {
+  Json list = Json::array();
+  for (const SuccessCount& count : counts) {
+    Json entry = {{"difficulty", count.difficulty},
+                  {"criterion", count.criterion},
+                  {"pairs", count.pairs},
+                  {"failed", count.failed}};
+    for (std::size_t k = 0; k < kSuccessRanks.size(); ++k)
+      entry["top_" + std::to_string(kSuccessRanks[k])] = count.successes[k];
+    entry["median_seconds"] = count.median_seconds ? Json(*count.median_seconds) : Json();
+    list.push_back(entry);
+  }
+  return list;
+}
+
+void execute(Options options) {
+  DockSettings settings = resolve(options.arguments);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.options.threads = options.common.threads;
+  if (options.common.threads == 0 && options.jobs > 1)
+    settings.options.threads = std::max(1, cores / options.jobs);
+  Json recorded = {{"mortise_version", kVersion}, {"seed", options.seed}};
+  recorded.update(settings_json(settings));
+  recorded.erase("random_start");  // each pair's own
+  const std::string record = recorded.dump();
+
+  const std::vector<BenchmarkPair> pairs = chosen_pairs(options);
+  check_writable(options.output);
+  check_writable(summary_path(options.output));
+  if (!options.runs.empty()) {
+    std::error_code error;
+    fs::create_directories(options.runs, error);
+    if (!fs::is_directory(options.runs)) throw FileError(options.runs, "cannot be made a folder");
+    check_writable((fs::path(options.runs) / "run.h5").string());
+  }
+  std::vector<ResultRow> rows;
+  if (!options.force) rows = read_results(options.output, record);
+  std::erase_if(rows, [](const ResultRow& row) { return !row["error"].empty(); });  // tried again
+  const auto row_named = [&](const std::string& name) {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const ResultRow& row) { return row["name"] == name; });
+  };
+  std::vector<BenchmarkPair> todo;
+  for (const BenchmarkPair& pair : pairs)
+    if (row_named(pair.name) == rows.end()) todo.push_back(pair);
+  if (todo.size() < pairs.size() && !options.common.quiet)
+    std::fprintf(stderr, "mortise: %zu of %zu pairs are in %s already\n",
+                 pairs.size() - todo.size(), pairs.size(), options.output.c_str());
+
+  dock_pairs(todo, settings, options, [&](const ResultRow& row) {
+    rows.push_back(row);
+    write_results(options.output, record, rows);
+    print_row(row, options);
+  });
+  std::vector<ResultRow> chosen;
+  for (const BenchmarkPair& pair : pairs)
+    if (const auto row = row_named(pair.name); row != rows.end()) chosen.push_back(*row);
+  if (chosen.size() < pairs.size())
+    throw Interrupted(std::to_string(chosen.size()) + " of " + std::to_string(pairs.size()) +
+                      " pairs are in " + options.output + "; the same command goes on");
+
+  const std::vector<SuccessCount> counts = count_successes(chosen);
+  write_file_atomically(summary_path(options.output), success_csv(counts));
+  if (options.common.json) {
+    const Json json = {{"pairs", chosen.size()},
+                       {"failed", counts.front().failed},
+                       {"file", options.output},
+                       {"summary", summary_path(options.output)},
+                       {"success", success_json(counts)}};
+    std::printf("%s\n", json.dump().c_str());
+  } else if (!options.common.quiet) {
+    std::printf("\n%s\nwrote %s and %s\n", success_text(counts).c_str(), options.output.c_str(),
+                summary_path(options.output).c_str());
+  }
+  std::fflush(stdout);
+  for (const ResultRow& row : chosen)
+    if (!row["error"].empty())
+      throw InputError("benchmark: " + std::to_string(counts.front().failed) + " of " +
+                       std::to_string(chosen.size()) + " pairs failed, the first is " +
+                       row["name"] + ": " + row["error"]);
+}
+
+}  // namespace
+
+void add_benchmark(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand(
+      "benchmark", "Dock a table of known complexes from random starts, count successes");
+  command
+      .add_option("TABLE", options->table,
+                  "CSV: name,unbound_interface_rmsd,fixed,moving,reference_fixed,reference_moving; "
+                  "paths count from its folder")
+      ->required();
+  command
+      .add_option("-o,--output", options->output,
+                  "CSV of results, a row per pair as it is done; NAME_summary.csv beside it")
+      ->required();
+  command.add_option("--fold", options->fold, "i/k: only every k-th pair, from the i-th on")
+      ->type_name("I/K");
+  command.add_option("--subset", options->subset, "Only the pairs of these names")->delimiter(',');
+  command.add_option("--seed", options->seed, "Seed of the random starts")->capture_default_str();
+  command.add_option("--runs", options->runs, "Keep each pair's run file in this folder");
+  command
+      .add_option("--jobs", options->jobs,
+                  "Pairs docked at a time; --threads is for each of them, 0 = its share of the "
+                  "cores")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--force", options->force, "Replace results of other options");
+  add_dock_options(command, options->arguments);
+  add_common_options(
+      command, options->common,
+      "  mortise benchmark pairs.csv -o results.csv\n"
+      "  mortise benchmark pairs.csv -o fast.csv --preset fast --fold 1/5 --jobs 2 --threads 1\n"
+      "  mortise benchmark pairs.csv -o few.csv --subset 1AVX,1PPE --runs runs/\n"
+      "Pairs that are in the results already, with the same options, are not docked again; failed\n"
+      "ones are. Two processes must not write to one file of results at the same time. Exit code "
+      "1\n"
+      "if a pair failed, after all others are done.");
+  command.callback([options] { execute(*options); });
+}
+
 }  // namespace mortise::app
