@@ -111,19 +111,38 @@ void Correlator::set_fixed(
 void Correlator::correlate(const Eigen::Matrix3Xd& points,
                            const std::vector<Eigen::VectorXf>& weights,
                            const Eigen::Matrix3d& rotation, Workspace& w) const {
-  const auto [nx, ny, nz] = size_;
-  const std::ptrdiff_t c = columns_, plane = c * ny, tile = c * nx;
+  rotate(points, rotation, w);
+  for (int p = 0; p < components_; ++p) {
+    spread(weights[p], w);
+    forward_zy(p, w);
+  }
+  multiply(w);
+  backward_yz(w);
+}
+
+void Correlator::rotate(const Eigen::Matrix3Xd& points, const Eigen::Matrix3d& rotation,
+                        Workspace& w) const {
   const Eigen::Vector3d middle(origin_[0] * spacing_, origin_[1] * spacing_, origin_[2] * spacing_);
   w.points.noalias() = rotation * points;
   w.points.colwise() += middle;
-  for (int p = 0; p < components_; ++p) {
-    w.spreader.spread(w.points, weights[p], w.corner.data());
-    std::complex<float>* planes = w.planes.data() + p * nx * plane;
-    for (int i = 0; i < corner_[0]; ++i) {
-      forward_z_.run(w.corner.data() + i * w.spreader.stride(0), w.lines.data());
-      forward_y_.run(w.lines.data(), planes + i * plane);
-    }
+}
+
+void Correlator::spread(const Eigen::VectorXf& weights, Workspace& w) const {
+  w.spreader.spread(w.points, weights, w.corner.data());
+}
+
+void Correlator::forward_zy(int component, Workspace& w) const {
+  const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(columns_) * size_[1];
+  std::complex<float>* const planes = w.planes.data() + component * size_[0] * plane;
+  for (int i = 0; i < corner_[0]; ++i) {
+    forward_z_.run(w.corner.data() + i * w.spreader.stride(0), w.lines.data());
+    forward_y_.run(w.lines.data(), planes + i * plane);
   }
+}
+
+void Correlator::multiply(Workspace& w) const {
+  const auto [nx, ny, nz] = size_;
+  const std::ptrdiff_t c = columns_, plane = c * ny, tile = c * nx;
   for (int j = 0; j < ny; ++j) {
     for (int p = 0; p < components_; ++p) {
       forward_x_.run(w.planes.data() + p * nx * plane + j * c, w.tile.data());
@@ -134,10 +153,14 @@ void Correlator::correlate(const Eigen::Matrix3Xd& points,
     }
     backward_x_.run(w.sum.data(), w.product.data() + j * c);
   }
-  for (int i = 0; i < nx; ++i) {
-    std::complex<float>* slab = w.product.data() + i * plane;
+}
+
+void Correlator::backward_yz(Workspace& w) const {
+  const std::ptrdiff_t ny = size_[1], plane = columns_ * ny;
+  for (int i = 0; i < size_[0]; ++i) {
+    std::complex<float>* const slab = w.product.data() + i * plane;
     backward_y_.run(slab, slab);
-    float* scores = w.scores.data() + static_cast<std::ptrdiff_t>(i) * ny * row_;
+    float* const scores = w.scores.data() + i * ny * row_;
     backward_z_.run(slab, scores);
     float* const maxima = w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_;
     table_->row_maxima(scores, ny, row_, maxima);
