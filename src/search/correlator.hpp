@@ -96,6 +96,7 @@ class Correlator {
   std::array<double, 3> origin_;
   double spacing_;
   int components_, columns_, row_;  // columns_: complex numbers per padded row
+  std::ptrdiff_t plane_;            // complex numbers per padded plane of y and z
   int plane_row_;                   // floats per padded row of maxima
   SpreadKernel kernel_;
   const SearchTable* table_;
