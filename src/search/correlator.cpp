@@ -66,7 +66,11 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
   const Spreader<3, float> spreader(corner_, corner_box(corner_, spacing), kernel_,
                                     WeightKind::real);
   using Fft = FftPlan<float>;
-  const std::ptrdiff_t c = columns_, plane = c * ny;
+  const std::ptrdiff_t c = columns_;
+  // An odd number of cache lines, so that a line across all planes does not fall into few cache
+  // sets.
+  plane_ = (c * ny / 8 | 1) * 8;
+  const std::ptrdiff_t plane = plane_;
   forward_z_ = Fft::real_to_complex({{{nz, 1, 1}}, {{corner_[1], spreader.stride(1), c}}}, false);
   forward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, true, false);
   forward_x_ = Fft::complex_to_complex({{{nx, plane, c}}, {{nc, 1, 1}}}, true, false);
@@ -80,7 +84,7 @@ Correlator::Workspace::Workspace(const Correlator& plan)
     : spreader(plan.corner_, corner_box(plan.corner_, plan.spacing_), plan.kernel_,
                WeightKind::real) {
   const auto [nx, ny, nz] = plan.size_;
-  const std::size_t plane = static_cast<std::size_t>(ny) * plan.columns_;
+  const auto plane = static_cast<std::size_t>(plan.plane_);
   corner.resize(spreader.grid_size());
   lines.resize(plane);
   planes.resize(plan.components_ * nx * plane);
@@ -111,22 +115,40 @@ void Correlator::set_fixed(
 void Correlator::correlate(const Eigen::Matrix3Xd& points,
                            const std::vector<Eigen::VectorXf>& weights,
                            const Eigen::Matrix3d& rotation, Workspace& w) const {
-  const auto [nx, ny, nz] = size_;
-  const std::ptrdiff_t c = columns_, plane = c * ny, tile = c * nx;
+  rotate(points, rotation, w);
+  for (int p = 0; p < components_; ++p) {
+    spread(weights[p], w);
+    forward_zy(p, w);
+  }
+  multiply(w);
+  backward_yz(w);
+}
+
+void Correlator::rotate(const Eigen::Matrix3Xd& points, const Eigen::Matrix3d& rotation,
+                        Workspace& w) const {
   const Eigen::Vector3d middle(origin_[0] * spacing_, origin_[1] * spacing_, origin_[2] * spacing_);
   w.points.noalias() = rotation * points;
   w.points.colwise() += middle;
-  for (int p = 0; p < components_; ++p) {
-    w.spreader.spread(w.points, weights[p], w.corner.data());
-    std::complex<float>* planes = w.planes.data() + p * nx * plane;
-    for (int i = 0; i < corner_[0]; ++i) {
-      forward_z_.run(w.corner.data() + i * w.spreader.stride(0), w.lines.data());
-      forward_y_.run(w.lines.data(), planes + i * plane);
-    }
+}
+
+void Correlator::spread(const Eigen::VectorXf& weights, Workspace& w) const {
+  w.spreader.spread(w.points, weights, w.corner.data());
+}
+
+void Correlator::forward_zy(int component, Workspace& w) const {
+  std::complex<float>* const planes = w.planes.data() + component * size_[0] * plane_;
+  for (int i = 0; i < corner_[0]; ++i) {
+    forward_z_.run(w.corner.data() + i * w.spreader.stride(0), w.lines.data());
+    forward_y_.run(w.lines.data(), planes + i * plane_);
   }
+}
+
+void Correlator::multiply(Workspace& w) const {
+  const auto [nx, ny, nz] = size_;
+  const std::ptrdiff_t c = columns_, tile = c * nx;
   for (int j = 0; j < ny; ++j) {
     for (int p = 0; p < components_; ++p) {
-      forward_x_.run(w.planes.data() + p * nx * plane + j * c, w.tile.data());
+      forward_x_.run(w.planes.data() + p * nx * plane_ + j * c, w.tile.data());
       table_->multiply_conjugate(
           reinterpret_cast<const float*>(fixed_.data() + (p * ny + j) * tile),
           reinterpret_cast<const float*>(w.tile.data()), tile, p == 0,
@@ -134,10 +156,14 @@ void Correlator::correlate(const Eigen::Matrix3Xd& points,
     }
     backward_x_.run(w.sum.data(), w.product.data() + j * c);
   }
-  for (int i = 0; i < nx; ++i) {
-    std::complex<float>* slab = w.product.data() + i * plane;
+}
+
+void Correlator::backward_yz(Workspace& w) const {
+  const std::ptrdiff_t ny = size_[1];
+  for (int i = 0; i < size_[0]; ++i) {
+    std::complex<float>* const slab = w.product.data() + i * plane_;
     backward_y_.run(slab, slab);
-    float* scores = w.scores.data() + static_cast<std::ptrdiff_t>(i) * ny * row_;
+    float* const scores = w.scores.data() + i * ny * row_;
     backward_z_.run(slab, scores);
     float* const maxima = w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_;
     table_->row_maxima(scores, ny, row_, maxima);

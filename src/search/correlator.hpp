@@ -59,9 +59,19 @@ class Correlator {
 
   /// Scores of all translations into workspace.scores, row maxima into workspace.maxima.
   /// @param points   3 x N moving points, unrotated, |y| <= moving_reach; rotated by `rotation`
-  /// @param weights  P x N, component p's weight of each point in row p (row-major)
+  /// @param weights  P vectors, component p's weight of each of the N points
   void correlate(const Eigen::Matrix3Xd& points, const std::vector<Eigen::VectorXf>& weights,
                  const Eigen::Matrix3d& rotation, Workspace& workspace) const;
+
+  /// The steps of correlate(), one by one for the benchmark. For each component: the rotated
+  /// points' weights onto the corner's grid, then its z and y transforms; for all together: x
+  /// transforms, products, x transforms back; y and z back, with row maxima.
+  void rotate(const Eigen::Matrix3Xd& points, const Eigen::Matrix3d& rotation,
+              Workspace& workspace) const;
+  void spread(const Eigen::VectorXf& weights, Workspace& workspace) const;
+  void forward_zy(int component, Workspace& workspace) const;
+  void multiply(Workspace& workspace) const;
+  void backward_yz(Workspace& workspace) const;
 
   /// Up to `count` translations at least `separation` apart (grid steps), best first: the best
   /// cell, then the best that is not too near, and so on, each moved to its sub-grid maximum.
@@ -86,6 +96,7 @@ class Correlator {
   std::array<double, 3> origin_;
   double spacing_;
   int components_, columns_, row_;  // columns_: complex numbers per padded row
+  std::ptrdiff_t plane_;            // complex numbers per padded plane of y and z
   int plane_row_;                   // floats per padded row of maxima
   SpreadKernel kernel_;
   const SearchTable* table_;

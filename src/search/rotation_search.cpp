@@ -303,21 +303,17 @@ Eigen::Vector3d RotationSearch::translation_of(int i, int j, int k) const {
 }
 
 double bare_fft_seconds(const std::array<int, 3>& grid_size) {
-  // Both arrays contiguous: the half spectrum's rows are nz / 2 + 1 long, not nz.
-  const std::array<int, 3>& size = grid_size;
-  const std::ptrdiff_t row = size[2], half_row = size[2] / 2 + 1;
-  const FftLayout to_half{
-      {{size[0], size[1] * row, size[1] * half_row}, {size[1], row, half_row}, {size[2], 1, 1}},
-      {}};
-  const FftLayout to_real{
-      {{size[0], size[1] * half_row, size[1] * row}, {size[1], half_row, row}, {size[2], 1, 1}},
-      {}};
-  const auto forward = FftPlan<float>::real_to_complex(to_half, false, PlanRigor::measure);
-  const auto backward = FftPlan<float>::complex_to_real(to_real, false, PlanRigor::measure);
-  const std::size_t reals = static_cast<std::size_t>(size[0]) * size[1] * size[2];
-  AlignedVector<float> real(reals, 0.0F);
-  AlignedVector<std::complex<float>> half(static_cast<std::size_t>(size[0]) * size[1] *
-                                          (size[2] / 2 + 1));
+  const auto [nx, ny, nz] = grid_size;
+  const std::ptrdiff_t nc = nz / 2 + 1;
+  // Both arrays contiguous, as FFTW's own simple interface has them.
+  const auto forward = FftPlan<float>::real_to_complex(
+      {{{nx, std::ptrdiff_t{ny} * nz, ny * nc}, {ny, nz, nc}, {nz, 1, 1}}, {}}, false,
+      PlanRigor::measure);
+  const auto backward = FftPlan<float>::complex_to_real(
+      {{{nx, ny * nc, std::ptrdiff_t{ny} * nz}, {ny, nc, nz}, {nz, 1, 1}}, {}}, false,
+      PlanRigor::measure);
+  AlignedVector<float> real(static_cast<std::size_t>(nx) * ny * nz, 0.0F);
+  AlignedVector<std::complex<float>> half(static_cast<std::size_t>(nx) * ny * nc);
   double best = std::numeric_limits<double>::infinity();
   const auto begin = Clock::now();
   for (int i = 0; i < 200 && (i < 5 || Clock::now() - begin < std::chrono::milliseconds(60)); ++i) {

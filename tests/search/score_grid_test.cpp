@@ -174,11 +174,12 @@ TEST(ScoreGrid, NoPlacementTouchesTwoCopiesOfTheFixedBody) {
     const Eigen::Quaterniond turn =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis);
     const Knots fixed = moved({turn, {1, 2, 3}}, stick);
-    const std::vector<Channel> channels = {double_skin_channel(fixed, stick, {1.4, 2.0})};
+    const std::vector<Channel> channels = {double_skin_channel(fixed, stick, {1.4, 7.0})};
     // Smooth enough a field that the window's blur stays below the tolerance: fine grid, no window.
-    // The fixed stick lies along x of the search frame.
+    // The fixed stick lies along x of the search frame. The spacing leaves a box shorter by the
+    // range (30.4) no slack from rounding up to 80 cells.
     RotationSearch search(channels, Eigen::Vector4d(1, 0, 0, 0),
-                          {.spacing = 0.6, .cutoff = kInfinity, .spread_width = 8});
+                          {.spacing = 0.3805, .cutoff = kInfinity, .spread_width = 8});
     const std::vector<float> grid = search.score_grid(0);
     const auto [nx, ny, nz] = search.grid_size();
     double scale = 0.0, worst = 0.0;
@@ -188,11 +189,14 @@ TEST(ScoreGrid, NoPlacementTouchesTwoCopiesOfTheFixedBody) {
         for (int k = 0; k < nz; ++k, ++n) {
           const Eigen::Vector3f t = search.translation_of(i, j, k).cast<float>();
           const double exact = reference::double_skin_score(
-              fixed, stick, search.moving_in_fixed({0, 0.0F, {t[0], t[1], t[2]}}), 1.4, 2.0);
-          scale = std::max(scale, std::abs(exact));
-          worst = std::max(worst, std::abs(grid[n] - exact));
+              fixed, stick, search.moving_in_fixed({0, 0.0F, {t[0], t[1], t[2]}}), 1.4, 7.0);
+          scale = std::max(scale, exact);
+          // Where bodies overlap the cut-off of sharp penalties rings; only contacts are looked at.
+          if (exact >= 0.0) worst = std::max(worst, std::abs(grid[n] - exact));
         }
-    EXPECT_LT(worst, 0.1 * scale);
+    // Against the best contact, not the far larger penalties: bridging two copies, or missing a
+    // contact, is an error of about one pair's best score, half of what both ends touching give.
+    EXPECT_LT(worst, 0.25 * scale);
   }
 }
 
