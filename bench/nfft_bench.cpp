@@ -152,9 +152,10 @@ void BM_Nfft4dAgainstDirectSum(benchmark::State& state) {
   state.counters["speedup"] = slow / fast;
 }
 BENCHMARK(BM_Nfft4dAgainstDirectSum)
+    ->Arg(16)
+    ->Arg(32)
+    ->Arg(64)
     ->Arg(100)
-    ->Arg(200)
-    ->Arg(500)
     ->Arg(1000)
     ->Arg(10000)
     ->Iterations(2)

@@ -15,7 +15,8 @@ void check_channel(const Channel& channel, const char* who) {
   if (!channel.fixed_transform || !channel.moving_transform)
     throw InputError(where + ": both radial transforms must be set");
   if (!std::isfinite(channel.weight)) throw InputError(where + ": the weight must be finite");
-  if (!(channel.range >= 0.0)) throw InputError(where + ": the range must be >= 0");
+  if (!(channel.range >= 0.0) || !std::isfinite(channel.range))
+    throw InputError(where + ": the range must be >= 0 and finite");
 }
 
 }  // namespace mortise

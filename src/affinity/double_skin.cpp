@@ -2,7 +2,9 @@
 // Double-skin affinity of balls.
 #include "mortise/affinity/double_skin.hpp"
 
+#include <cmath>
 #include <complex>
+#include <string>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/kernels/ball.hpp"
@@ -10,10 +12,12 @@
 namespace mortise {
 
 RadialTransform double_skin_transform(const DoubleSkinOptions& options) {
-  if (!(options.offset > 0.0))
-    throw InputError("double skin: offset must be > 0, got " + std::to_string(options.offset));
-  if (!(options.penalty >= 0.0))
-    throw InputError("double skin: penalty must be >= 0, got " + std::to_string(options.penalty));
+  if (!(options.offset > 0.0) || !std::isfinite(options.offset))
+    throw InputError("double skin: offset must be > 0 and finite, got " +
+                     std::to_string(options.offset));
+  if (!(options.penalty >= 0.0) || !std::isfinite(options.penalty))
+    throw InputError("double skin: penalty must be >= 0 and finite, got " +
+                     std::to_string(options.penalty));
   return [options](double k, double r) {
     return ball_transform(k, r + options.offset) - options.penalty * ball_transform(k, r);
   };
@@ -24,7 +28,7 @@ Channel double_skin_channel(const Knots& fixed, const Knots& moving,
   const RadialTransform transform = double_skin_transform(options);
   Channel channel{"shape", 1.0, fixed, moving, transform, transform, 0.0};
   for (Knots* knots : {&channel.fixed, &channel.moving}) {
-    if (knots->weights.size() > 0 && knots->weights.imag().cwiseAbs().maxCoeff() > 0.0)
+    if (!(knots->weights.imag().array() == 0.0).all())  // NaN fails too
       throw InputError("double skin: knot weights must be real; they become the affinity's i w");
     knots->weights *= std::complex<double>(0.0, 1.0);
   }

@@ -28,11 +28,15 @@ void parallel_for(std::size_t count, int threads,
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
-  // More threads than cores are given too, where asked for; oneTBB would print a warning instead.
-  std::optional<tbb::global_control> more;
-  if (workers > tbb::this_task_arena::max_concurrency())
-    more.emplace(tbb::global_control::max_allowed_parallelism, workers);
-  tbb::task_arena arena(workers);
+  // TBB starts no more threads than there are cores and says so on stderr, unless it is told to.
+  // The arena must not ask for more than a smaller limit of the caller's own leaves.
+  using tbb::global_control;
+  std::optional<global_control> more;
+  if (static_cast<std::size_t>(workers) >
+      global_control::active_value(global_control::max_allowed_parallelism))
+    more.emplace(global_control::max_allowed_parallelism, workers);
+  tbb::task_arena arena(std::min(workers, static_cast<int>(global_control::active_value(
+                                              global_control::max_allowed_parallelism))));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),

@@ -67,7 +67,8 @@ Eigen::VectorXcd sum_over_box(const Eigen::Matrix<double, D, Eigen::Dynamic>& po
   const DirectTable& table = pick_isa(best_isa(), isa_baseline::kDirectTable,
                                       isa_avx2::kDirectTable, isa_avx512::kDirectTable);
   constexpr Eigen::Index kBlock = 16;  // a multiple of four
-  const std::ptrdiff_t length = std::ptrdiff_t{modes[D - 2]} * modes[D - 1];
+  const std::ptrdiff_t inner_modes = std::ptrdiff_t{modes[D - 2]} * modes[D - 1];
+  const std::ptrdiff_t length = (inner_modes + 7) / 8 * 8;  // whole vectors of any width
   std::ptrdiff_t outer = 1;
   for (int d = 0; d < D - 2; ++d) outer *= modes[d];
 
@@ -105,10 +106,11 @@ Eigen::VectorXcd sum_over_box(const Eigen::Matrix<double, D, Eigen::Dynamic>& po
     };
     parallel_for(static_cast<std::size_t>(outer), threads, std::ref(add_row));
   }
-  Eigen::VectorXcd result(outer * length);
+  Eigen::VectorXcd result(outer * inner_modes);
   for (std::ptrdiff_t row = 0; row < outer; ++row)
-    for (std::ptrdiff_t m = 0; m < length; ++m)
-      result[row * length + m] = {sums[row * 2 * length + m], sums[row * 2 * length + length + m]};
+    for (std::ptrdiff_t m = 0; m < inner_modes; ++m)
+      result[row * inner_modes + m] = {sums[row * 2 * length + m],
+                                       sums[row * 2 * length + length + m]};
   return result;
 }
 

@@ -200,7 +200,7 @@ int good_fft_size(int n) {
     throw InputError("good_fft_size: expected at most 2^30, got " + std::to_string(n));
   for (int size = std::max(2, n + n % 2);; size += 2) {
     int rest = size;
-    for (const int prime : {2, 3, 5})
+    for (const int prime : {2, 3, 5, 7})
       while (rest % prime == 0) rest /= prime;
     if (rest == 1) return size;
   }

@@ -36,7 +36,7 @@ AxisError axis_error(const SpreadKernel& kernel, int modes, int size) {
   constexpr int kImages = 4, kSamples = 64;
   // Images beyond kImages, all in step at the worst place of a point: they make up the jump at the
   // kernel's edge.
-  const double jump = 0.25 / kernel.width;
+  const double jump = 0.1 / kernel.width;
   const auto transform = [&](double nu) { return transform_shape(kernel.width, kernel.beta, nu); };
   const double centre = transform(0.0);
   const int samples = std::min(modes, kSamples);

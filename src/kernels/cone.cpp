@@ -51,7 +51,8 @@ double ConeSeries::trim(double r) const {
 Eigen::VectorXcd ConeSeries::coefficients(double k) const {
   Eigen::VectorXd samples(radii_.size());
   for (Eigen::Index j = 0; j < samples.size(); ++j) samples[j] = kernel_.transform(k, radii_[j]);
-  return samples_to_modes_ * samples;
+  const Eigen::VectorXcd factors = from_samples_ * samples;
+  return to_modes_ * factors;
 }
 
 ConeSeries trimmed_cone(const RadialKernel& kernel, double height, double trim_alpha, int modes) {
@@ -62,13 +63,14 @@ ConeSeries trimmed_cone(const RadialKernel& kernel, double height, double trim_a
   series.trim_alpha_ = trim_alpha;
   const int points = 512 + 8 * modes;
   series.radii_.resize(points - 1);
-  series.samples_to_modes_.resize(modes, points - 1);
+  series.from_samples_.resize(modes, points - 1);
+  series.to_modes_ = Eigen::MatrixXcd::Identity(modes, modes);
   for (int i = 1; i < points; ++i) {
     const double s = height * i / points;
     series.radii_[i - 1] = s;
     for (int m = 0; m < modes; ++m)
-      series.samples_to_modes_(m, i - 1) = std::polar(
-          trimming_factor(s, height, trim_alpha) / points, 2.0 * pi * (m - modes / 2) * i / points);
+      series.from_samples_(m, i - 1) = std::polar(trimming_factor(s, height, trim_alpha) / points,
+                                                  2.0 * pi * (m - modes / 2) * i / points);
   }
   return series;
 }
@@ -102,13 +104,15 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
         basis(j, m) =
             std::polar(row_scale[j], -2.0 * pi * (m - modes / 2) * rule.nodes[j] / series.period_);
     const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    // Small singular values would only add coefficients that are large and cancel.
-    const double least = std::max(1e-4 * tolerance, 1e-15) * svd.singularValues()[0];
+    // Smaller singular values are rounding.
+    const double least = 1e-14 * svd.singularValues()[0];
     const Eigen::VectorXd inverse =
         svd.singularValues().unaryExpr([&](double s) { return s > least ? 1.0 / s : 0.0; });
     series.radii_ = rule.nodes;
-    series.samples_to_modes_ =
-        svd.matrixV() * inverse.asDiagonal() * svd.matrixU().adjoint() * row_scale.asDiagonal();
+    // In two factors: their product would carry rounding from the smallest singular values into all
+    // directions.
+    series.from_samples_ = svd.matrixU().adjoint() * row_scale.asDiagonal();
+    series.to_modes_ = svd.matrixV() * inverse.asDiagonal();
     double worst = 0.0;
     const int k_count = 9 + static_cast<int>(4.0 * k_max * r_max), r_count = 4 * modes;
     for (int i = 0; i < k_count; ++i) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, double>, 21> kPropensities = {{
 }};
 
 bool is_backbone(const std::string& name) {
-  return name == "N" || name == "CA" || name == "C" || name == "O";
+  return name == "N" || name == "CA" || name == "C" || name == "O" || name == "OXT";
 }
 
 }  // namespace
@@ -40,21 +40,25 @@ Knots to_knots(const Molecule& molecule, const ToKnotsOptions& options) {
   if (!(options.propensity >= 0.0))
     throw InputError("to_knots: propensity must be >= 0, got " +
                      std::to_string(options.propensity));
+  if (!(options.exposed_area >= 0.0))
+    throw InputError("to_knots: exposed_area must be >= 0, got " +
+                     std::to_string(options.exposed_area));
+  // Hydrogens go before the surface is made: united radii stand for them.
+  Molecule heavy{molecule.path, {}};
+  std::copy_if(molecule.atoms.begin(), molecule.atoms.end(), std::back_inserter(heavy.atoms),
+               [](const Atom& a) { return a.element != "H" && a.element != "D"; });
+  if (heavy.atoms.empty()) throw InputError("to_knots: " + molecule.path + " has no heavy atom");
   // 200 points tell exposed from buried; the area itself is not used.
   const Eigen::VectorXd area =
-      accessible_areas(molecule, {.points_per_atom = 200, .threads = options.threads});
-  const Eigen::VectorXd radii = atom_radii(molecule);
-  std::vector<Eigen::Index> heavy;
-  for (std::size_t i = 0; i < molecule.atoms.size(); ++i)
-    if (molecule.atoms[i].element != "H" && molecule.atoms[i].element != "D")
-      heavy.push_back(static_cast<Eigen::Index>(i));
-  if (heavy.empty()) throw InputError("to_knots: " + molecule.path + " has no heavy atom");
-  Knots knots{Eigen::Matrix4Xd(4, heavy.size()), Eigen::VectorXcd(heavy.size())};
-  for (std::size_t k = 0; k < heavy.size(); ++k) {
-    const Atom& atom = molecule.atoms[heavy[k]];
-    knots.points.col(k) << atom.position, options.radius > 0.0 ? options.radius : radii[heavy[k]];
-    const bool weighted = area[heavy[k]] > options.exposed_area && !is_backbone(atom.name);
-    knots.weights[k] =
+      accessible_areas(heavy, {.points_per_atom = 200, .threads = options.threads});
+  const Eigen::VectorXd radii = atom_radii(heavy);
+  const auto count = static_cast<Eigen::Index>(heavy.atoms.size());
+  Knots knots{Eigen::Matrix4Xd(4, count), Eigen::VectorXcd(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Atom& atom = heavy.atoms[i];
+    knots.points.col(i) << atom.position, options.radius > 0.0 ? options.radius : radii[i];
+    const bool weighted = area[i] > options.exposed_area && !is_backbone(atom.name);
+    knots.weights[i] =
         weighted ? 1.0 + options.propensity * interface_propensity(atom.residue_name) : 1.0;
   }
   check_knots(knots, "to_knots");

@@ -2,6 +2,7 @@
 // Greedy clustering of ranked poses.
 #include "mortise/search/cluster.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -66,13 +67,18 @@ Clusters cluster_poses(const std::vector<RigidMotion>& poses, const Eigen::Matri
     throw InputError("cluster: radius must be >= 0, got " + std::to_string(options.radius));
   const PoseDistance distance(points);
   const double radius_sq = options.radius * options.radius;
-  FounderCells cells(options.radius > 0.0 ? options.radius : 1.0);
+  // Cells may be larger than the radius; a lower bound keeps their numbers in range.
+  FounderCells cells(std::max(options.radius, 1e-3));
   Clusters result{std::vector<int>(poses.size(), -1), {}};
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector3d centre = poses[i] * distance.centroid();
-    int cluster = cells.first(centre, [&](int c) {
-      return distance.mean_square(poses[result.founders[c]], poses[i]) < radius_sq;
-    });
+    if (!centre.allFinite())
+      throw InputError("cluster: pose " + std::to_string(i) + " is not finite");
+    int cluster = -1;
+    if (radius_sq > 0.0)  // else nobody joins: the founders of one cell need not be gone through
+      cluster = cells.first(centre, [&](int c) {
+        return distance.mean_square(poses[result.founders[c]], poses[i]) < radius_sq;
+      });
     if (cluster < 0) {
       if (options.max_clusters > 0 && result.founders.size() >= options.max_clusters) continue;
       cluster = static_cast<int>(result.founders.size());

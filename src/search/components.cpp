@@ -98,7 +98,8 @@ Components make_components(const std::vector<Channel>& channels,
       };
       const Eigen::VectorXd fixed_weights = part(channel.fixed),
                             moving_weights = part(channel.moving);
-      if (fixed_weights.isZero(0.0) || moving_weights.isZero(0.0)) continue;
+      if (channel.weight == 0.0 || fixed_weights.isZero(0.0) || moving_weights.isZero(0.0))
+        continue;
       // Re(c d) = Re c Re d - Im c Im d; 1 / volume is the inverse transform's.
       const double factor = (imaginary ? -1.0 : 1.0) * channel.weight / volume;
       const Spectrum field =

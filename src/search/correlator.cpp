@@ -60,6 +60,7 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
   const int nx = size[0], ny = size[1], nz = size[2], nc = nz / 2 + 1;
   columns_ = round_up(nc, 8);
   row_ = round_up(nz, 16);
+  plane_row_ = round_up(ny, 16);
   table_ = &pick_isa(best_isa(), isa_baseline::kSearchTable, isa_avx2::kSearchTable,
                      isa_avx512::kSearchTable);
   const Spreader<3, float> spreader(corner_, corner_box(corner_, spacing), kernel_,
@@ -87,7 +88,8 @@ Correlator::Workspace::Workspace(const Correlator& plan)
   sum.resize(tile.size());
   product.resize(nx * plane);
   scores.resize(static_cast<std::size_t>(nx) * ny * plan.row_, kLowest);
-  maxima.resize(static_cast<std::size_t>(nx) * ny);
+  maxima.resize(static_cast<std::size_t>(nx) * plan.plane_row_, kLowest);
+  plane_maxima.resize(nx);
 }
 
 void Correlator::set_fixed(
@@ -137,52 +139,91 @@ void Correlator::correlate(const Eigen::Matrix3Xd& points,
     backward_y_.run(slab, slab);
     float* scores = w.scores.data() + static_cast<std::ptrdiff_t>(i) * ny * row_;
     backward_z_.run(slab, scores);
-    table_->row_maxima(scores, ny, row_, w.maxima.data() + static_cast<std::ptrdiff_t>(i) * ny);
+    float* const maxima = w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_;
+    table_->row_maxima(scores, ny, row_, maxima);
+    table_->row_maxima(maxima, 1, plane_row_, w.plane_maxima.data() + i);
+  }
+}
+
+GridPeak Correlator::peak_at(const Workspace& w, const std::array<int, 3>& cell) const {
+  const auto score = [&](std::array<int, 3> at, int axis, int step) {
+    const int n = size_[axis];
+    at[axis] = (at[axis] + step + n) % n;
+    return w.scores[(static_cast<std::size_t>(at[0]) * size_[1] + at[1]) * row_ + at[2]];
+  };
+  const float top = score(cell, 0, 0);
+  GridPeak peak{top, cell, {}};
+  for (int d = 0; d < 3; ++d) {  // a parabola through the three points of each axis
+    const float below = score(cell, d, -1), above = score(cell, d, 1);
+    const float curvature = 2.0F * top - below - above;
+    if (!(below > kLowest) || !(above > kLowest) || below > top || above > top ||
+        !(curvature > 0.0F))
+      continue;  // not a maximum along this axis: a neighbour belongs to a better peak
+    peak.offset[d] = 0.5F * (above - below) / curvature;
+    peak.score += 0.25F * (above - below) * peak.offset[d];
+  }
+  return peak;
+}
+
+void Correlator::clear_ball(Workspace& w, const GridPeak& peak, double separation) const {
+  const auto [nx, ny, nz] = size_;
+  // At most half the box, so that one wrap suffices.
+  std::array<int, 3> radius;
+  for (int d = 0; d < 3; ++d)
+    radius[d] = static_cast<int>(std::min(std::ceil(separation + 0.5), 0.5 * size_[d]));
+  const auto wrap = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
+  const auto off_sq = [&](int d, int step) {
+    return std::pow(step - static_cast<double>(peak.offset[d]), 2);
+  };
+  const double separation_sq = separation * separation;
+  for (int a = -radius[0]; a <= radius[0]; ++a) {
+    if (a != 0 && off_sq(0, a) >= separation_sq) continue;
+    const int i = wrap(peak.cell[0] + a, nx);
+    float* const plane = w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_;
+    for (int b = -radius[1]; b <= radius[1]; ++b) {
+      const double ab = off_sq(0, a) + off_sq(1, b);
+      if ((a != 0 || b != 0) && ab >= separation_sq) continue;
+      const int j = wrap(peak.cell[1] + b, ny);
+      float* const near = w.scores.data() + (static_cast<std::ptrdiff_t>(i) * ny + j) * row_;
+      for (int c = -radius[2]; c <= radius[2]; ++c)
+        if ((a == 0 && b == 0 && c == 0) || ab + off_sq(2, c) < separation_sq)
+          near[wrap(peak.cell[2] + c, nz)] = kLowest;
+      table_->row_maxima(near, 1, row_, plane + j);
+    }
+    table_->row_maxima(plane, 1, plane_row_, w.plane_maxima.data() + i);
   }
 }
 
 std::vector<GridPeak> Correlator::take_peaks(Workspace& w, int count, double separation) const {
   const auto [nx, ny, nz] = size_;
-  const auto wrap = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
-  const auto row_at = [&](int i, int j) {
-    return w.scores.data() + (static_cast<std::ptrdiff_t>(wrap(i, nx)) * ny + wrap(j, ny)) * row_;
+  const auto first_largest = [](const float* values, int n) {
+    return static_cast<int>(std::max_element(values, values + n) - values);
   };
-  // Cells nearer than this are cleared around a peak; at most half the box, so that wrap()
-  // suffices.
-  const int radius = std::min({static_cast<int>(separation), nx / 2, ny / 2, nz / 2});
-  const double separation_sq = separation * separation;
   std::vector<GridPeak> peaks;
-  while (static_cast<int>(peaks.size()) < count) {
-    const auto best =
-        static_cast<int>(std::max_element(w.maxima.begin(), w.maxima.end()) - w.maxima.begin());
-    const int i = best / ny, j = best % ny;
-    float* const row = row_at(i, j);
-    const int k = static_cast<int>(std::max_element(row, row + nz) - row);
-    const float top = row[k];
-    if (!(top > kLowest)) break;  // everything has been taken
-    GridPeak peak{top, {i, j, k}, {}};
-    for (int d = 0; d < 3; ++d) {  // a parabola through the three points of each axis
-      const int di = d == 0, dj = d == 1, dk = d == 2;
-      const float below = row_at(i - di, j - dj)[wrap(k - dk, nz)];
-      const float above = row_at(i + di, j + dj)[wrap(k + dk, nz)];
-      const float curvature = 2.0F * top - below - above;
-      if (!(below > kLowest) || !(above > kLowest) || below > top || above > top ||
-          !(curvature > 0.0F))
-        continue;  // not a maximum along this axis: a neighbour belongs to a better peak
-      peak.offset[d] = 0.5F * (above - below) / curvature;
-      peak.score += 0.25F * (above - below) * peak.offset[d];
+  const auto too_near = [&](const GridPeak& a, const GridPeak& b) {
+    double distance_sq = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const double step = a.cell[d] - b.cell[d] + static_cast<double>(a.offset[d] - b.offset[d]);
+      distance_sq += std::pow(step - size_[d] * std::round(step / size_[d]), 2);
     }
-    peaks.push_back(peak);
-    for (int a = -radius; a <= radius; ++a)
-      for (int b = -radius; b <= radius; ++b) {
-        if (a * a + b * b > separation_sq) continue;
-        float* const near = row_at(i + a, j + b);
-        for (int e = -radius; e <= radius; ++e)
-          if (a * a + b * b + e * e <= separation_sq) near[wrap(k + e, nz)] = kLowest;
-        w.maxima[static_cast<std::size_t>(wrap(i + a, nx)) * ny + wrap(j + b, ny)] =
-            *std::max_element(near, near + nz);
-      }
+    return distance_sq < separation * separation;
+  };
+  while (static_cast<int>(peaks.size()) < count) {
+    const int i = first_largest(w.plane_maxima.data(), nx);
+    const int j = first_largest(w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_, ny);
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(i) * ny + j;
+    const int k = first_largest(w.scores.data() + row * row_, nz);
+    if (!(w.scores[row * row_ + k] > kLowest)) break;  // everything has been taken
+    const GridPeak peak = peak_at(w, {i, j, k});
+    // A cell outside the cleared ball may have its maximum inside; then only the cell is cleared.
+    const bool taken = std::any_of(peaks.begin(), peaks.end(),
+                                   [&](const GridPeak& other) { return too_near(peak, other); });
+    clear_ball(w, peak, taken ? 0.0 : separation);
+    if (!taken) peaks.push_back(peak);
   }
+  // The sub-grid maximum of a lower cell may be the higher one.
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const GridPeak& a, const GridPeak& b) { return a.score > b.score; });
   return peaks;
 }
 

@@ -46,8 +46,9 @@ class Correlator {
     AlignedVector<std::complex<float>>
         planes;  // P x nx x ny x nc: after z and y; planes past the corner stay 0
     AlignedVector<std::complex<float>> tile, sum, product;  // nx x nc, nx x nc, nx x ny x nc
-    AlignedVector<float> scores;  // nx x ny x row(): last axis padded with -infinity
-    std::vector<float> maxima;    // nx x ny
+    AlignedVector<float> scores;      // nx x ny x row(): last axis padded with -infinity
+    std::vector<float> maxima;        // of each row; nx x ny, rows padded with -infinity
+    std::vector<float> plane_maxima;  // nx
   };
 
   /// Sets component p's spectrum: value(kx, ky, kz) at integer frequencies, kz = 0 .. nz / 2, such
@@ -62,8 +63,9 @@ class Correlator {
   void correlate(const Eigen::Matrix3Xd& points, const std::vector<Eigen::VectorXf>& weights,
                  const Eigen::Matrix3d& rotation, Workspace& workspace) const;
 
-  /// The `count` best translations at least `separation` apart (grid steps), best first; overwrites
-  /// scores.
+  /// Up to `count` translations at least `separation` apart (grid steps), best first: the best
+  /// cell, then the best that is not too near, and so on, each moved to its sub-grid maximum.
+  /// Overwrites scores.
   [[nodiscard]] std::vector<GridPeak> take_peaks(Workspace& workspace, int count,
                                                  double separation) const;
 
@@ -76,10 +78,15 @@ class Correlator {
   [[nodiscard]] const SpreadKernel& kernel() const noexcept { return kernel_; }
 
  private:
+  [[nodiscard]] GridPeak peak_at(const Workspace& workspace, const std::array<int, 3>& cell) const;
+  /// Takes the peak's cell and those nearer than `separation` to it out of scores and maxima.
+  void clear_ball(Workspace& workspace, const GridPeak& peak, double separation) const;
+
   std::array<int, 3> size_, corner_;
   std::array<double, 3> origin_;
   double spacing_;
   int components_, columns_, row_;  // columns_: complex numbers per padded row
+  int plane_row_;                   // floats per padded row of maxima
   SpreadKernel kernel_;
   const SearchTable* table_;
   FftPlan<float> forward_z_, forward_y_, forward_x_, backward_x_, backward_y_, backward_z_;

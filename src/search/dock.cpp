@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/core/threads.hpp"
+#include "mortise/molecules/contact_types.hpp"
+#include "mortise/molecules/radii.hpp"
 #include "mortise/molecules/to_knots.hpp"
 #include "mortise/search/cluster.hpp"
+#include "mortise/search/contact_potential.hpp"
+#include "mortise/search/score_maps.hpp"
 
 namespace mortise {
 namespace {
@@ -63,6 +69,7 @@ std::string to_json(const DockOptions& o) {
       {"radius", o.radius},
       {"propensity", o.propensity},
       {"rescore", o.rescore},
+      {"potential", o.potential},
       {"poses", o.poses},
       {"cluster_radius", o.cluster_radius},
   };
@@ -71,18 +78,18 @@ std::string to_json(const DockOptions& o) {
 
 struct Docking::Impl {
   DockOptions options;
-  Molecule fixed, moving;
   Knots fixed_knots, moving_knots;
   RotationSet rotations;
   std::unique_ptr<RotationSearch> search;
+  ContactPotential potential;
+  TypedPoints moving_points;
+  std::optional<ScoreMaps> maps;  // with options.rescore
 };
 
 Docking::Docking(const Molecule& fixed, const Molecule& moving, const DockOptions& options)
     : impl_(std::make_unique<Impl>()) {
   check_options(options);
   impl_->options = options;
-  impl_->fixed = fixed;
-  impl_->moving = moving;
   const ToKnotsOptions knots{
       .radius = options.radius, .propensity = options.propensity, .threads = options.threads};
   impl_->fixed_knots = to_knots(fixed, knots);
@@ -94,6 +101,13 @@ Docking::Docking(const Molecule& fixed, const Molecule& moving, const DockOption
       std::vector<Channel>{
           double_skin_channel(impl_->fixed_knots, impl_->moving_knots, options.double_skin)},
       impl_->rotations.quaternions, search);
+  if (!options.rescore) return;
+  impl_->potential = options.potential.empty()
+                         ? fitted_contact_potential()
+                         : read_contact_potential(options.potential, kContactTypes);
+  impl_->moving_points = {atom_positions(moving), contact_types(moving)};
+  impl_->maps.emplace(TypedPoints{atom_positions(fixed), contact_types(fixed)}, impl_->potential,
+                      ScoreMapsOptions{.threads = options.threads});
 }
 
 Docking::~Docking() = default;
@@ -106,29 +120,39 @@ const Knots& Docking::fixed_knots() const { return impl_->fixed_knots; }
 const Knots& Docking::moving_knots() const { return impl_->moving_knots; }
 
 PoseList Docking::rank() const {
-  const std::vector<Candidate> candidates = impl_->search->candidates();
-  PoseList all{{"shape"}, {}};
-  all.poses.reserve(candidates.size());
-  for (const Candidate& c : candidates) {
-    Pose pose;
-    pose.moving_in_fixed = impl_->search->moving_in_fixed(c);
-    pose.score = c.score;
-    pose.channels = {pose.score};
+  const Impl& run = *impl_;
+  const std::vector<Candidate> candidates = run.search->candidates();
+  const double shape_factor = run.options.rescore ? run.potential.shape : 1.0;
+  PoseList all{{"shape"}, std::vector<Pose>(candidates.size())};
+  if (run.options.rescore) all.channel_names.emplace_back("contact");
+  const auto score = [&](std::size_t i) {
+    const Candidate& c = candidates[i];
+    Pose& pose = all.poses[i];
+    pose.moving_in_fixed = run.search->moving_in_fixed(c);
     pose.rotation_index = c.rotation_index;
-    all.poses.push_back(std::move(pose));
-  }
+    pose.channels = {shape_factor * c.score};
+    if (run.maps) pose.channels.push_back(run.maps->score(run.moving_points, pose.moving_in_fixed));
+    pose.score = std::accumulate(pose.channels.begin(), pose.channels.end(), 0.0);
+  };
+  // Pieces large enough that handing them out costs nothing.
+  constexpr std::size_t kPiece = 256;
+  parallel_for((candidates.size() + kPiece - 1) / kPiece, run.options.threads,
+               [&](std::size_t piece, int) {
+                 const std::size_t end = std::min(candidates.size(), (piece + 1) * kPiece);
+                 for (std::size_t i = piece * kPiece; i < end; ++i) score(i);
+               });
   const std::vector<std::size_t> order =
       ranking(all.poses.size(), [&](std::size_t i) { return all.poses[i].score; });
   std::vector<RigidMotion> motions;
   motions.reserve(order.size());
   for (const std::size_t i : order) motions.push_back(all.poses[i].moving_in_fixed);
   const Clusters clusters =
-      cluster_poses(motions, impl_->moving_knots.points.topRows<3>(),
-                    {.radius = impl_->options.cluster_radius,
-                     .max_clusters = static_cast<std::size_t>(impl_->options.poses)});
+      cluster_poses(motions, run.moving_knots.points.topRows<3>(),
+                    {.radius = run.options.cluster_radius,
+                     .max_clusters = static_cast<std::size_t>(run.options.poses)});
   PoseList best{all.channel_names, {}};
   for (const std::size_t f : clusters.founders) {
-    best.poses.push_back(all.poses[order[f]]);
+    best.poses.push_back(std::move(all.poses[order[f]]));
     best.poses.back().cluster = static_cast<int>(best.poses.size()) - 1;
   }
   return best;

@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 void check_options(const SearchOptions& o) {
   const auto refuse = [](const std::string& what) { throw InputError("search: " + what); };
-  if (!(o.spacing > 0.0)) refuse("spacing must be > 0, got " + std::to_string(o.spacing));
+  if (!(o.spacing > 0.0) || !std::isfinite(o.spacing))
+    refuse("spacing must be > 0 and finite, got " + std::to_string(o.spacing));
   if (!(o.cutoff > 0.0)) refuse("cutoff must be > 0, got " + std::to_string(o.cutoff));
   if (o.per_rotation < 1)
     refuse("per_rotation must be >= 1, got " + std::to_string(o.per_rotation));
@@ -45,8 +46,9 @@ Eigen::Matrix3Xd all_centres(const std::vector<Channel>& channels, Knots Channel
   return centres;
 }
 
-// Principal axes, longest first, right-handed, each turned so that its largest component is
-// positive: the frame then depends on the shape alone.
+// Principal axes, longest first, right-handed, the first two turned towards the side on which the
+// points lie farther out (positive third moment): the frame then depends on the shape alone. Where
+// a body is too symmetric to tell, the largest component in the input frame is made positive.
 RigidMotion principal_frame(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d mean = points.rowwise().mean();
   const Eigen::Matrix3Xd centred = points.colwise() - mean;
@@ -54,9 +56,12 @@ RigidMotion principal_frame(const Eigen::Matrix3Xd& points) {
   Eigen::Matrix3d axes;
   for (int d = 0; d < 2; ++d) {
     Eigen::Vector3d axis = solver.eigenvectors().col(2 - d);
+    const Eigen::ArrayXd along = centred.transpose() * axis;
+    const double third = along.cube().sum();
     Eigen::Index largest = 0;
     axis.cwiseAbs().maxCoeff(&largest);
-    axes.row(d) = (axis[largest] < 0.0 ? -axis : axis).transpose();
+    const double lead = std::abs(third) > 1e-9 * along.abs().cube().sum() ? third : axis[largest];
+    axes.row(d) = (lead < 0.0 ? -axis : axis).transpose();
   }
   axes.row(2) = axes.row(0).cross(axes.row(1));
   RigidMotion frame{canonical(Eigen::Quaterniond(axes)), Eigen::Vector3d::Zero()};
@@ -126,7 +131,7 @@ struct RotationSearch::Impl {
     Candidate* out = found.data() + index * options.per_rotation;
     for (const GridPeak& peak : peaks) {
       std::array<double, 3> cell;
-      for (int d = 0; d < 3; ++d) cell[d] = static_cast<float>(peak.cell[d]) + peak.offset[d];
+      for (int d = 0; d < 3; ++d) cell[d] = peak.cell[d] + static_cast<double>(peak.offset[d]);
       const Eigen::Vector3f t = translation(cell).cast<float>();
       *out++ = {static_cast<std::int32_t>(index), peak.score, {t[0], t[1], t[2]}};
     }
@@ -148,7 +153,7 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
   if (!rotations.allFinite() || (rotations.colwise().norm().array() - 1.0).abs().maxCoeff() > 1e-6)
     throw InputError("search: every rotation must be a unit quaternion");
   impl_->options = options;
-  impl_->rotations = rotations;
+  impl_->rotations = rotations.colwise().normalized();  // the corner has no room for 1e-6 more
 
   const Eigen::Matrix3Xd fixed = all_centres(channels, &Channel::fixed);
   impl_->search_from_fixed = principal_frame(fixed);
@@ -160,8 +165,9 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
   std::array<int, 3> size;
   double cells = 1.0;
   for (int d = 0; d < 3; ++d) {
-    // Far enough that the moving body never touches two copies of the fixed one at once.
-    const double side = 2.0 * half[d] + 2.0 * reach + range;
+    // So far apart that the moving body never has two copies of the fixed one within three quarters
+    // of the range at once. (Of the double skin, only touching skins reach farther, and they cost.)
+    const double side = 2.0 * half[d] + 2.0 * reach + 1.5 * range;
     cells *= side / options.spacing;
     if (!(cells < 1e9))
       throw InputError("search: the grid would have more than a billion points; spacing " +
@@ -234,18 +240,32 @@ std::vector<Candidate> RotationSearch::candidates() const {
 
 void RotationSearch::resume(const std::vector<std::uint8_t>& done,
                             const std::vector<Candidate>& candidates) {
+  const auto refuse = [](const std::string& what) {
+    throw InputError("search: the interrupted search's " + what);
+  };
   if (done.size() != impl_->done.size())
     throw InputError("search: the interrupted search had " + std::to_string(done.size()) +
                      " rotations, this one has " + std::to_string(impl_->done.size()));
+  std::vector<std::uint8_t> now(done.size());
+  std::transform(done.begin(), done.end(), now.begin(),
+                 [](std::uint8_t d) { return static_cast<std::uint8_t>(d != 0); });
+  std::vector<Candidate> found(impl_->found.size());
   std::vector<int> filled(done.size(), 0);
   for (const Candidate& c : candidates) {
-    if (c.rotation_index < 0 || c.rotation_index >= static_cast<std::int32_t>(done.size()) ||
-        done[c.rotation_index] == 0 || filled[c.rotation_index] >= impl_->options.per_rotation)
-      throw InputError("search: the interrupted search's candidates do not fit its rotations");
-    impl_->found[static_cast<std::size_t>(c.rotation_index) * impl_->options.per_rotation +
-                 filled[c.rotation_index]++] = c;
+    if (c.rotation_index < 0 || static_cast<std::size_t>(c.rotation_index) >= done.size() ||
+        now[c.rotation_index] == 0)
+      refuse("candidates are of rotations that it has not searched");
+    if (filled[c.rotation_index] >= impl_->options.per_rotation)
+      refuse("candidates are more than " + std::to_string(impl_->options.per_rotation) +
+             " at a rotation");
+    found[static_cast<std::size_t>(c.rotation_index) * impl_->options.per_rotation +
+          filled[c.rotation_index]++] = c;
   }
-  impl_->done = done;
+  for (std::size_t r = 0; r < done.size(); ++r)
+    if (now[r] != 0 && filled[r] == 0)
+      refuse("candidates lack those of a rotation it has searched");
+  impl_->done = std::move(now);
+  impl_->found = std::move(found);
 }
 
 const RigidMotion& RotationSearch::search_from_fixed() const { return impl_->search_from_fixed; }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "mortise/core/errors.hpp"
@@ -29,6 +31,22 @@ TEST(ParallelFor, VisitsEachIndexOnceAndNeverSharesAWorker) {
     EXPECT_FALSE(shared);
     for (const auto& v : visits) EXPECT_EQ(v, 1);
   }
+}
+
+TEST(ParallelFor, MoreThreadsThanCoresWorkInSilence) {
+  // TBB warns once per process: ctest runs each test in its own.
+  const int threads = static_cast<int>(std::thread::hardware_concurrency()) + 3;
+  std::vector<std::atomic<int>> used(threads);
+  testing::internal::CaptureStderr();
+  for (int repeat = 0; repeat < 3; ++repeat)
+    parallel_for(200, threads, [&](std::size_t, int worker) {
+      used[worker] = 1;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  int count = 0;
+  for (const auto& u : used) count += u;
+  EXPECT_EQ(count, threads);
 }
 
 TEST(ParallelFor, RethrowsAndRefusesNegativeThreads) {

@@ -62,8 +62,8 @@ TEST(RadialKernel, InfiniteAlphaIsTheBallAndLargeAlphaApproachesIt) {
     EXPECT_NEAR(sharp.transform(k, 1.8), ball.transform(k, 1.8), 2e-3 * ball.volume(1.8));
   }
   EXPECT_EQ(ball.transform(0.2, -1.5), -ball.transform(0.2, 1.5));
-  EXPECT_THROW(RadialKernel(0.0), InputError);
-  EXPECT_THROW(RadialKernel(std::numeric_limits<double>::quiet_NaN()), InputError);
+  EXPECT_THROW(RadialKernel{0.0}, InputError);
+  EXPECT_THROW(RadialKernel{std::numeric_limits<double>::quiet_NaN()}, InputError);
 }
 
 TEST(LowPass, HannReachesZeroAtTheCutoff) {

@@ -32,8 +32,8 @@ struct Channel {
       0.0;  ///< distance of two knots beyond which their score is nil; sizes the search's box
 };
 
-/// Throws InputError naming `who` unless both knot sets are good, both transforms are set and the
-/// weight is finite.
+/// Throws InputError naming `who` unless both knot sets are good, both transforms are set, weight
+/// and range are finite and the range is not negative.
 void check_channel(const Channel& channel, const char* who);
 
 }  // namespace mortise

@@ -77,7 +77,7 @@ class FftPlan {
 extern template class FftPlan<float>;
 extern template class FftPlan<double>;
 
-/// The smallest even number >= n with no prime factor above 5: a grid size that transforms fast.
+/// The smallest even number >= n with no prime factor above 7: a grid size that transforms fast.
 [[nodiscard]] int good_fft_size(int n);
 
 }  // namespace mortise

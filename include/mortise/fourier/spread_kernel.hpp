@@ -13,8 +13,7 @@ namespace mortise {
 struct SpreadKernel {
   int width = 0;  ///< cells per axis one point touches, 2 to 16
   double beta = 0.0;
-  double expected_error =
-      0.0;  ///< relative l2 error over all modes, for one point at the worst place
+  double expected_error = 0.0;  ///< relative l2 error over all modes, points at random
   double fit_error =
       0.0;  ///< largest admissible error of the polynomial pieces, relative to phi(0)
 

@@ -13,7 +13,7 @@ namespace mortise {
 struct CompressRadiusOptions {
   double tolerance = 1e-4;  ///< largest error of any frequency and radius, relative to the kernel's
                             ///< volume; 1e-12 to 0.1
-  LowPass low_pass = {};         ///< folded into the frequency factors
+  LowPass low_pass = {};    ///< folded into the frequency factors
 };
 
 /// low_pass(k) phi^(k; r) ~ sum_q a_q(k) b_q(r) for 0 <= k <= k_max and the radii of an interval.

@@ -30,7 +30,7 @@ namespace mortise {
 /// f^(w) = sum_m g_m(|w|) exp(-2 pi i m r0 / period) F(w, m)  [SD, Eq. 24-25 and Sec. 3.2].
 class ConeSeries {
  public:
-  [[nodiscard]] int modes() const noexcept { return static_cast<int>(samples_to_modes_.rows()); }
+  [[nodiscard]] int modes() const noexcept { return static_cast<int>(to_modes_.rows()); }
   [[nodiscard]] double period() const noexcept { return period_; }
   /// By what a ball of radius r comes out weighted; 1 for a fitted cone on its radii.
   [[nodiscard]] double trim(double r) const;
@@ -43,9 +43,9 @@ class ConeSeries {
 
   RadialKernel kernel_;
   double period_ = 0.0;
-  double trim_alpha_ = 0.0;            // 0: fitted
-  Eigen::VectorXd radii_;              // where phi^(k; .) is sampled
-  Eigen::MatrixXcd samples_to_modes_;  // M x samples
+  double trim_alpha_ = 0.0;                   // 0: fitted
+  Eigen::VectorXd radii_;                     // where phi^(k; .) is sampled
+  Eigen::MatrixXcd from_samples_, to_modes_;  // g = to_modes from_samples phi^
 };
 
 /// The paper's cone of the given height, its transform cut off after `modes` terms; the period is

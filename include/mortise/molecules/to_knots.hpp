@@ -12,7 +12,7 @@ struct ToKnotsOptions {
   double radius = 1.8;  ///< of every heavy atom's knot, angstrom; 0 = each atom's own atom_radius()
   double propensity = 0.7;  ///< strength of the interface propensities; 0 = all weights are 1
   double exposed_area =
-      1.0;          ///< accessible area above which an atom counts as exposed, square angstrom
+      1.0;  ///< accessible area above which an atom counts as exposed, square angstrom; >= 0
   int threads = 1;  ///< 0 = all cores; never changes the result
 };
 

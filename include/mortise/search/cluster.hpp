@@ -27,8 +27,8 @@ struct Clusters {
 /// radius, or founds one.
 /// @param poses   best first
 /// @param points  3 x N, the moving body in its input frame
-/// @throws InputError if the radius is negative
-/// Time O(poses x clusters near by): founders are kept in cells of the radius' size.
+/// @throws InputError if the radius is negative, there is no point, or a point or pose is not
+/// finite Time O(poses x clusters near by): founders are kept in cells of the radius' size.
 [[nodiscard]] Clusters cluster_poses(const std::vector<RigidMotion>& poses,
                                      const Eigen::Matrix3Xd& points,
                                      const ClusterOptions& options = {});

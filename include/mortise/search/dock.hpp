@@ -24,7 +24,9 @@ struct DockOptions {
   double propensity = 0.7;  ///< how much residues' interface propensities change the weights of
                             ///< exposed side chains; >= 0
   bool rescore = true;      ///< rank by shape plus contact potential instead of shape alone
-  int poses = 2000;         ///< poses reported; >= 1
+  std::string potential =
+      {};            ///< file of the contact potential; empty = fitted_contact_potential()
+  int poses = 2000;  ///< poses reported; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none
   int threads = 0;  ///< 0 = all cores; never changes the result

@@ -27,7 +27,8 @@ struct SearchOptions {
   int threads = 0;          ///< 0 = all cores; never changes the result
 };
 
-/// One local maximum of the score over translations at one rotation, search frame.
+/// One of the best translations at one rotation, search frame: a local maximum of the score, or the
+/// best that is left on the slope of a better one past the separation.
 struct Candidate {
   std::int32_t rotation_index = -1;
   float score = 0.0F;                     ///< sum of all channels; at the sub-grid maximum

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A body's contact potential on a grid.
+#include "mortise/search/score_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/core/threads.hpp"
+
+namespace mortise {
+namespace {
+
+void check_points(const TypedPoints& body, Eigen::Index types, const char* name) {
+  const std::string where = std::string("score maps: ") + name + " body: ";
+  if (body.points.cols() != body.types.size())
+    throw InputError(where + "expected one type per point, got " +
+                     std::to_string(body.types.size()) + " for " +
+                     std::to_string(body.points.cols()));
+  if (body.types.size() > 0 && body.types.maxCoeff() >= types)
+    throw InputError(where + "type " + std::to_string(body.types.maxCoeff()) +
+                     " is not one of the potential's " + std::to_string(types));
+  if (!body.points.allFinite()) throw InputError(where + "a coordinate is not finite");
+}
+
+}  // namespace
+
+ScoreMaps::ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential,
+                     const ScoreMapsOptions& options)
+    : size_{2, 2, 2},
+      low_(Eigen::Vector3d::Zero()),
+      spacing_(options.spacing),
+      types_(static_cast<int>(potential.near.rows())) {
+  if (!(options.spacing > 0.0))
+    throw InputError("score maps: spacing must be > 0, got " + std::to_string(options.spacing));
+  check_points(fixed, potential.near.rows(), "fixed");
+  if (fixed.points.cols() > 0) {
+    low_ = fixed.points.rowwise().minCoeff().array() - kContactRange;
+    const Eigen::Vector3d high = fixed.points.rowwise().maxCoeff().array() + kContactRange;
+    for (int d = 0; d < 3; ++d)
+      size_[d] = static_cast<int>(std::ceil((high[d] - low_[d]) / spacing_)) + 2;
+  }
+  const auto [nx, ny, nz] = size_;
+  const std::size_t plane = static_cast<std::size_t>(ny) * nz;
+  values_.resize(types_ * nx * plane);
+  const Eigen::MatrixXf near = potential.near.cast<float>(), far = potential.far.cast<float>();
+  // One x-plane at a time, so that threads share nothing and each sum runs in the order of the
+  // points.
+  parallel_for(
+      static_cast<std::size_t>(nx), options.threads, [&, ny = ny, nz = nz](std::size_t i, int) {
+        Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(types_, static_cast<Eigen::Index>(plane));
+        for (Eigen::Index p = 0; p < fixed.points.cols(); ++p) {
+          if (fixed.types[p] < 0) continue;
+          const Eigen::Vector3d at = fixed.points.col(p) - low_;
+          const double dx = at[0] - static_cast<double>(i) * spacing_;
+          const double left = kContactRange * kContactRange - dx * dx;
+          if (left <= 0.0) continue;
+          const double reach = std::sqrt(left);
+          const int first = std::max(0, static_cast<int>(std::ceil((at[1] - reach) / spacing_)));
+          const int last = std::min(ny - 1, static_cast<int>((at[1] + reach) / spacing_));
+          for (int j = first; j <= last; ++j) {
+            const double dy = at[1] - j * spacing_;
+            const double width = std::sqrt(std::max(0.0, left - dy * dy));
+            const int begin = std::max(0, static_cast<int>(std::ceil((at[2] - width) / spacing_)));
+            const int end = std::min(nz - 1, static_cast<int>((at[2] + width) / spacing_));
+            for (int k = begin; k <= end; ++k) {
+              const double dz = at[2] - k * spacing_;
+              const double d = std::sqrt(dx * dx + dy * dy + dz * dz);
+              sums.col(static_cast<Eigen::Index>(j) * nz + k).noalias() +=
+                  static_cast<float>(near_contact(d)) * near.col(fixed.types[p]) +
+                  static_cast<float>(far_contact(d)) * far.col(fixed.types[p]);
+            }
+          }
+        }
+        for (int t = 0; t < types_; ++t)
+          for (std::size_t n = 0; n < plane; ++n)
+            values_[(static_cast<std::size_t>(t) * size_[0] + i) * plane + n] =
+                sums(t, static_cast<Eigen::Index>(n));
+      });
+}
+
+double ScoreMaps::score(const TypedPoints& moving, const RigidMotion& moving_in_fixed) const {
+  const Eigen::Matrix3d rotation = moving_in_fixed.rotation.toRotationMatrix() / spacing_;
+  const Eigen::Vector3d shift = (moving_in_fixed.translation - low_) / spacing_;
+  const std::ptrdiff_t row = size_[2], plane = row * size_[1], map = plane * size_[0];
+  const double top[3] = {size_[0] - 1.0, size_[1] - 1.0, size_[2] - 1.0};
+  double sum = 0.0;
+  for (Eigen::Index p = 0; p < moving.points.cols(); ++p) {
+    const int type = moving.types[p];
+    if (type < 0) continue;
+    const double x = moving.points(0, p), y = moving.points(1, p), z = moving.points(2, p);
+    const double u = rotation(0, 0) * x + rotation(0, 1) * y + rotation(0, 2) * z + shift[0];
+    if (!(u >= 0.0 && u < top[0])) continue;
+    const double v = rotation(1, 0) * x + rotation(1, 1) * y + rotation(1, 2) * z + shift[1];
+    if (!(v >= 0.0 && v < top[1])) continue;
+    const double w = rotation(2, 0) * x + rotation(2, 1) * y + rotation(2, 2) * z + shift[2];
+    if (!(w >= 0.0 && w < top[2])) continue;
+    const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
+    const auto a = static_cast<float>(u - i), b = static_cast<float>(v - j),
+               c = static_cast<float>(w - k);
+    const float* q = values_.data() + type * map + i * plane + j * row + k;
+    const float q00 = q[0] + c * (q[1] - q[0]);
+    const float q01 = q[row] + c * (q[row + 1] - q[row]);
+    const float q10 = q[plane] + c * (q[plane + 1] - q[plane]);
+    const float q11 = q[plane + row] + c * (q[plane + row + 1] - q[plane + row]);
+    const float q0 = q00 + b * (q01 - q00), q1 = q10 + b * (q11 - q10);
+    sum += q0 + a * (q1 - q0);
+  }
+  return sum;
+}
+
+double contact_score(const TypedPoints& fixed, const TypedPoints& moving,
+                     const RigidMotion& moving_in_fixed, const ContactPotential& potential) {
+  check_points(fixed, potential.near.rows(), "fixed");
+  check_points(moving, potential.near.rows(), "moving");
+  const Eigen::Matrix3Xd moved = moving_in_fixed * moving.points;
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < moved.cols(); ++j)
+    for (Eigen::Index i = 0; i < fixed.points.cols(); ++i) {
+      if (fixed.types[i] < 0 || moving.types[j] < 0) continue;
+      const double d = (fixed.points.col(i) - moved.col(j)).norm();
+      if (d < kContactRange)
+        sum += potential.near(fixed.types[i], moving.types[j]) * near_contact(d) +
+               potential.far(fixed.types[i], moving.types[j]) * far_contact(d);
+    }
+  return sum;
+}
+
+}  // namespace mortise
