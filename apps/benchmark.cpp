@@ -379,7 +379,7 @@ void add_benchmark(CLI::App& program) {
       command, options->common,
       "  mortise benchmark pairs.csv -o results.csv\n"
       "  mortise benchmark pairs.csv -o fast.csv --preset fast --fold 1/5 --jobs 2 --threads 1\n"
-      "  mortise benchmark pairs.csv -o few.csv --subset 1AVX,1PPE --runs runs/\n"
+      "  mortise benchmark pairs.csv -o few.csv --subset 1ACB,1A2K --runs runs/\n"
       "Pairs that are in the results already, with the same options, are not docked again; failed\n"
       "ones are. Two processes must not write to one file of results at the same time. Exit code "
       "1\n"

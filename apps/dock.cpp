@@ -157,10 +157,10 @@ void execute(const Options& options) {
   }
   inputs.settings.options.threads = options.common.threads;
   const double seconds_read = seconds_since(begin);
-  if (text) print_inputs(inputs);
 
   const double seconds_before = inputs.earlier ? inputs.earlier->seconds : 0.0;
   DockWatch watch;
+  if (text) watch.prepared = [&] { print_inputs(inputs); };
   watch.progress = make_progress("docking", options.common);
   watch.checkpoint_seconds = options.checkpoint_seconds;
   watch.save = [&](const Run& unfinished) {

@@ -135,6 +135,7 @@ DockResult dock(const DockBody& fixed, const DockBody& moving, const DockSetting
   if (earlier != nullptr && earlier->checkpoint)
     search.resume(earlier->rotations.done, candidates_of(*earlier->checkpoint));
   result.figures.seconds_prepare = seconds_since(begin);
+  if (watch.prepared) watch.prepared();
 
   const auto record_progress = [&] {
     run.rotations.done = search.done();

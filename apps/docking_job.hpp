@@ -37,6 +37,8 @@ struct DockBody {
 [[nodiscard]] RigidMotion random_start(std::uint64_t seed);
 
 struct DockWatch {
+  std::function<void()>
+      prepared;  ///< called once, when nothing is left to be refused; may be empty
   ProgressCallback progress;
   double checkpoint_seconds = 30.0;                 ///< between two calls of save; >= 0
   std::function<void(const Run& unfinished)> save;  ///< without poses; empty = none
