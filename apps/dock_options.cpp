@@ -114,6 +114,7 @@ DockSettings parse_settings(const std::string& text) {
     for (const Field<int>& field : kIntegers)
       field.of(settings.options) = json.at(field.key).get<int>();
     settings.options.rescore = json.at("rescore").get<bool>();
+    settings.options.potential = json.at("potential").get<std::string>();
     settings.read.keep_ligands = json.at("ligands").get<bool>();
     settings.read.keep_ions = json.at("ions").get<bool>();
     if (!json.at("random_start").is_null())

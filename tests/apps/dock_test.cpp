@@ -101,19 +101,23 @@ TEST_F(Dock, ThreadsNeverChangeTheResult) {
 
 TEST_F(Dock, RandomStartIsUndoneInThePoses) {
   must(std::string("dock ") + kPair + "-o plain.h5 --rotations 60");
-  must(std::string("dock ") + kPair + "-o run.h5 --rotations 900 --random-start 7");
+  must(std::string("dock ") + kPair + "-o run.h5 --rotations 900 --no-rescore --random-start 7");
   const mortise::Run plain = read_run(path("plain.h5")), run = read_run(path("run.h5"));
   EXPECT_EQ(run.provenance.seed, 7U);
   EXPECT_LT((plain.moving.knots.points - run.moving.knots.points).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_GT(rotation_angle(run.moving.search_from_input.rotation,
                            plain.moving.search_from_input.rotation),
             0.1);
-  // The file's ligand sits right: a pose near the answer is near the identity. Poses left in the
-  // moved frame would be anywhere.
-  const RigidMotion& best = run.poses.poses.front().moving_in_fixed;
-  EXPECT_LT(rotation_angle(best.rotation, Eigen::Quaterniond::Identity()), 0.6);
+  // The file's ligand sits right, so some leading pose is near the identity. Were poses left in
+  // the moved frame, one of a hundred would be so near by chance once in hundreds of runs.
   const Eigen::Vector3d centre = run.moving.knots.points.topRows<3>().rowwise().mean();
-  EXPECT_LT((best * centre - centre).norm(), 6.0);
+  bool found = false;
+  for (std::size_t i = 0; i < 100; ++i) {
+    const RigidMotion& pose = run.poses.poses.at(i).moving_in_fixed;
+    found = found || (rotation_angle(pose.rotation, Eigen::Quaterniond::Identity()) < 0.4 &&
+                      (pose * centre - centre).norm() < 5.0);
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(Dock, CtrlCSavesAndResumeGivesTheSameBytes) {
