@@ -76,6 +76,12 @@ void add_dock_options(CLI::App& command, DockArguments& arguments) {
   for (const Field<double>& field : kReals) add_field(command, arguments, field);
   for (const Field<int>& field : kIntegers)
     if (&field != kIntegers) add_field(command, arguments, field);
+  command.add_option_function<std::string>(
+      "--potential",
+      [&arguments](const std::string& path) {
+        arguments.overrides.emplace_back([path](DockSettings& s) { s.options.potential = path; });
+      },
+      "File of a contact potential to use instead of the built-in one");
   const auto add_switch = [&](const char* flag, const char* help, void (*set)(DockSettings&)) {
     command.add_flag_callback(
         flag, [&arguments, set] { arguments.overrides.emplace_back(set); }, help);
