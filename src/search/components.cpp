@@ -26,8 +26,7 @@ std::map<double, std::vector<Eigen::Index>> by_radius(const Knots& knots) {
 class FixedField {
  public:
   FixedField(const std::array<int, 3>& size, double spacing, int threads)
-      : size_(size),
-        nfft_(size, {size[0] * spacing, size[1] * spacing, size[2] * spacing},
+      : nfft_(size, {size[0] * spacing, size[1] * spacing, size[2] * spacing},
               {.tolerance = kFixedTolerance, .weights = WeightKind::real, .threads = threads}),
         frequency_(static_cast<std::size_t>(size[0]) * size[1] * (size[2] / 2 + 1)) {
     std::size_t n = 0;
@@ -62,7 +61,6 @@ class FixedField {
   }
 
  private:
-  std::array<int, 3> size_;
   Nfft3 nfft_;
   std::vector<double> frequency_;
 };
