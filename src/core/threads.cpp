@@ -7,13 +7,36 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <optional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
+namespace {
+
+// TBB starts no more threads than there are cores, and says so on stderr, unless it is told to; it
+// stays told for the rest of the process. Returns how many there may be, which a limit of the
+// caller's own keeps lower.
+int allow(int workers) {
+  using tbb::global_control;
+  constexpr auto kThreads = global_control::max_allowed_parallelism;
+  static std::mutex mutex;
+  static std::unique_ptr<global_control> more;
+  static int most = 0;
+  const std::lock_guard lock(mutex);
+  if (workers > most &&
+      static_cast<std::size_t>(workers) > global_control::active_value(kThreads)) {
+    more.reset();  // the smallest of several limits would count
+    more = std::make_unique<global_control>(kThreads, workers);
+    most = workers;
+  }
+  return static_cast<int>(global_control::active_value(kThreads));
+}
+
+}  // namespace
 
 int resolve_threads(int threads) {
   if (threads < 0) throw InputError("threads must be >= 0, got " + std::to_string(threads));
@@ -28,15 +51,7 @@ void parallel_for(std::size_t count, int threads,
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
-  // TBB starts no more threads than there are cores and says so on stderr, unless it is told to.
-  // The arena must not ask for more than a smaller limit of the caller's own leaves.
-  using tbb::global_control;
-  std::optional<global_control> more;
-  if (static_cast<std::size_t>(workers) >
-      global_control::active_value(global_control::max_allowed_parallelism))
-    more.emplace(global_control::max_allowed_parallelism, workers);
-  tbb::task_arena arena(std::min(workers, static_cast<int>(global_control::active_value(
-                                              global_control::max_allowed_parallelism))));
+  tbb::task_arena arena(std::min(workers, allow(workers)));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small made-up bodies and rotations for the tests of the search.
+// Small made-up bodies and rotations for the tests of the search. Braces where random numbers are
+// drawn: unlike arguments in parentheses they are evaluated in order, so all compilers agree.
 #pragma once
 
 #include <random>
@@ -20,11 +21,11 @@ inline Knots ellipsoid(std::mt19937& random, int count, const Eigen::Vector3d& h
   Knots knots{Eigen::Matrix4Xd(4, count), Eigen::VectorXcd(count)};
   for (int i = 0; i < count; ++i) {
     Eigen::Vector3d p;
-    do p = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+    do p = Eigen::Vector3d{uniform(random), uniform(random), uniform(random)};
     while (p.norm() > 1.0);
     knots.points.col(i) << half.cwiseProduct(p) + centre, radii[i % radii.size()];
     const double re = 1.0 + 0.5 * uniform(random), im = uniform(random);
-    knots.weights[i] = complex_weights ? std::complex<double>(uniform(random), im) : re;
+    knots.weights[i] = complex_weights ? std::complex<double>(re - 1.0, im) : re;
   }
   return knots;
 }
@@ -36,8 +37,8 @@ inline Knots moved(const RigidMotion& motion, Knots knots) {
 
 inline RigidMotion random_motion(std::mt19937& random, double step) {
   std::normal_distribution<double> normal;
-  const Eigen::Quaterniond q(normal(random), normal(random), normal(random), normal(random));
-  return {canonical(q), step * Eigen::Vector3d(normal(random), normal(random), normal(random))};
+  const Eigen::Quaterniond q{normal(random), normal(random), normal(random), normal(random)};
+  return {canonical(q), step * Eigen::Vector3d{normal(random), normal(random), normal(random)}};
 }
 
 inline Eigen::Matrix4Xd random_rotations(std::mt19937& random, int count) {

@@ -53,11 +53,11 @@ double narrow(double k, double r) { return r / (1.0 + std::pow(4.0 * k, 4)); }
 
 // Shape, plus a channel with complex weights and radii of its own on other centres.
 std::vector<Channel> channels_of(std::mt19937& random, int kind) {
-  const Knots fixed = ellipsoid(random, 60, {14, 8, 4}, {40, -7, 3}, {1.8});
+  const Knots fixed = ellipsoid(random, 60, {18, 10, 3}, {40, -7, 3}, {1.8});
   const Knots moving = ellipsoid(random, 30, {3, 5, 4}, {-4, 50, 9}, {1.8});
   std::vector<Channel> channels = {double_skin_channel(fixed, moving, {1.4, 7.0})};
   if (kind == 0) return channels;
-  const Knots f2 = ellipsoid(random, 20, {8, 6, 4}, {40, -7, 3}, {1.0, 2.5, 1.7}, true);
+  const Knots f2 = ellipsoid(random, 20, {18, 10, 2}, {40, -7, 3}, {1.0, 2.5, 1.7}, true);
   Knots m2 = ellipsoid(random, 11, {3, 5, 4}, {-4, 50, 9}, {2.2, 0.9}, true);
   m2.points.col(3).head<3>() = moving.points.col(5).head<3>();  // a centre that both channels have
   m2.points.col(4).head<3>() = m2.points.col(7).head<3>();      // and one that occurs twice
