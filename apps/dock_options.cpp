@@ -56,8 +56,8 @@ const Field<std::string> kTexts[] = {
 template <class Value>
 void add_field(CLI::App& command, DockArguments& arguments, const Field<Value>& field) {
   DockOptions defaults = dock_preset("default");
-  const Json value = field.of(defaults);
-  const std::string shown = value == "" ? "none" : value.dump();
+  const Json standard = field.of(defaults);
+  const std::string shown = standard == "" ? "none" : standard.dump();
   auto of = field.of;
   command
       .add_option_function<Value>(
