@@ -48,10 +48,16 @@ const Field<int> kIntegers[] = {
     {"poses", "--poses", "Poses reported", [](DockOptions& o) -> int& { return o.poses; }},
 };
 
+const Field<std::string> kTexts[] = {
+    {"potential", "--potential", "File of the contact potential; none = the fitted one",
+     [](DockOptions& o) -> std::string& { return o.potential; }},
+};
+
 template <class Value>
 void add_field(CLI::App& command, DockArguments& arguments, const Field<Value>& field) {
   DockOptions defaults = dock_preset("default");
-  const Json shown = field.of(defaults);
+  const Json standard = field.of(defaults);
+  const std::string shown = standard == "" ? "none" : standard.dump();
   auto of = field.of;
   command
       .add_option_function<Value>(
@@ -61,7 +67,7 @@ void add_field(CLI::App& command, DockArguments& arguments, const Field<Value>& 
                 [of, value](DockSettings& s) { of(s.options) = value; });
           },
           field.help)
-      ->default_str(shown.dump());
+      ->default_str(shown);
 }
 
 }  // namespace
@@ -76,12 +82,7 @@ void add_dock_options(CLI::App& command, DockArguments& arguments) {
   for (const Field<double>& field : kReals) add_field(command, arguments, field);
   for (const Field<int>& field : kIntegers)
     if (&field != kIntegers) add_field(command, arguments, field);
-  command.add_option_function<std::string>(
-      "--potential",
-      [&arguments](const std::string& path) {
-        arguments.overrides.emplace_back([path](DockSettings& s) { s.options.potential = path; });
-      },
-      "File of a contact potential to use instead of the built-in one");
+  for (const Field<std::string>& field : kTexts) add_field(command, arguments, field);
   const auto add_switch = [&](const char* flag, const char* help, void (*set)(DockSettings&)) {
     command.add_flag_callback(
         flag, [&arguments, set] { arguments.overrides.emplace_back(set); }, help);
@@ -119,8 +120,9 @@ DockSettings parse_settings(const std::string& text) {
       field.of(settings.options) = json.at(field.key).get<double>();
     for (const Field<int>& field : kIntegers)
       field.of(settings.options) = json.at(field.key).get<int>();
+    for (const Field<std::string>& field : kTexts)
+      field.of(settings.options) = json.at(field.key).get<std::string>();
     settings.options.rescore = json.at("rescore").get<bool>();
-    settings.options.potential = json.at("potential").get<std::string>();
     settings.read.keep_ligands = json.at("ligands").get<bool>();
     settings.read.keep_ions = json.at("ions").get<bool>();
     if (!json.at("random_start").is_null())

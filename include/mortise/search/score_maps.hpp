@@ -27,7 +27,7 @@ struct ScoreMapsOptions {
 /// For each type the potential that the fixed body's points make, on a grid around it.
 ///
 /// Interpolation errs by at most about spacing^2 / 8 times the kernels' curvature, which is
-/// concentrated in their corners; at 1 angstrom a pose's score is within about 1% (tested).
+/// concentrated in their corners; at 1 angstrom a pose's score errs by about 2% (docs/math.md).
 class ScoreMaps {
  public:
   /// @throws InputError if a type is not below the potential's, a size does not fit, or an option
