@@ -165,9 +165,9 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
   std::array<int, 3> size;
   double cells = 1.0;
   for (int d = 0; d < 3; ++d) {
-    // So far apart that the moving body never has two copies of the fixed one within three quarters
-    // of the range at once. (Of the double skin, only touching skins reach farther, and they cost.)
-    const double side = 2.0 * half[d] + 2.0 * reach + 1.5 * range;
+    // Far enough that the moving body never touches two copies of the fixed one at once (one range
+    // on either side of it), and that the copy it touches is the one nearest to its centre.
+    const double side = 2.0 * half[d] + 2.0 * reach + 2.0 * range;
     cells *= side / options.spacing;
     if (!(cells < 1e9))
       throw InputError("search: the grid would have more than a billion points; spacing " +
