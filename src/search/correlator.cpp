@@ -75,7 +75,8 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
   forward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, true, false);
   forward_x_ = Fft::complex_to_complex({{{nx, plane, c}}, {{nc, 1, 1}}}, true, false);
   backward_x_ = Fft::complex_to_complex({{{nx, c, plane}}, {{nc, 1, 1}}}, false, false);
-  backward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, false, true);
+  // Out of place: in place, the plan that ESTIMATE finds is up to 4 times slower (40 x 40 x 40).
+  backward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, false, false);
   backward_z_ = Fft::complex_to_real({{{nz, 1, 1}}, {{ny, c, row_}}}, false);
   fixed_.resize(static_cast<std::size_t>(components) * ny * nx * columns_);
 }
@@ -91,6 +92,7 @@ Correlator::Workspace::Workspace(const Correlator& plan)
   tile.resize(static_cast<std::size_t>(nx) * plan.columns_);
   sum.resize(tile.size());
   product.resize(nx * plane);
+  slab.resize(plane);
   scores.resize(static_cast<std::size_t>(nx) * ny * plan.row_, kLowest);
   maxima.resize(static_cast<std::size_t>(nx) * plan.plane_row_, kLowest);
   plane_maxima.resize(nx);
@@ -161,10 +163,9 @@ void Correlator::multiply(Workspace& w) const {
 void Correlator::backward_yz(Workspace& w) const {
   const std::ptrdiff_t ny = size_[1];
   for (int i = 0; i < size_[0]; ++i) {
-    std::complex<float>* const slab = w.product.data() + i * plane_;
-    backward_y_.run(slab, slab);
+    backward_y_.run(w.product.data() + i * plane_, w.slab.data());
     float* const scores = w.scores.data() + i * ny * row_;
-    backward_z_.run(slab, scores);
+    backward_z_.run(w.slab.data(), scores);
     float* const maxima = w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_;
     table_->row_maxima(scores, ny, row_, maxima);
     table_->row_maxima(maxima, 1, plane_row_, w.plane_maxima.data() + i);

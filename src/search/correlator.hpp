@@ -46,9 +46,10 @@ class Correlator {
     AlignedVector<std::complex<float>>
         planes;  // P x nx x ny x nc: after z and y; planes past the corner stay 0
     AlignedVector<std::complex<float>> tile, sum, product;  // nx x nc, nx x nc, nx x ny x nc
-    AlignedVector<float> scores;      // nx x ny x row(): last axis padded with -infinity
-    std::vector<float> maxima;        // of each row; nx x ny, rows padded with -infinity
-    std::vector<float> plane_maxima;  // nx
+    AlignedVector<std::complex<float>> slab;  // ny x nc: one x-plane between the y and z transforms
+    AlignedVector<float> scores;              // nx x ny x row(): last axis padded with -infinity
+    std::vector<float> maxima;                // of each row; nx x ny, rows padded with -infinity
+    std::vector<float> plane_maxima;          // nx
   };
 
   /// Sets component p's spectrum: value(kx, ky, kz) at integer frequencies, kz = 0 .. nz / 2, such

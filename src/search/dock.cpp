@@ -46,6 +46,7 @@ DockOptions dock_preset(const std::string& name) {
   if (name == "default") return options;
   if (name == "fast") {
     options.search.spacing = 3.5;
+    options.search.per_rotation = 2;
     return options;
   }
   if (name == "thorough") {
