@@ -63,9 +63,9 @@ void BM_NfftOfProtein(benchmark::State& state) {
   const double side = 2.0 * fine;  // 2 A grid
   Nfft3f plan({fine / 2, fine / 2, fine / 2}, {side, side, side},
               {.tolerance = tolerance,
-               .weights = WeightKind::real,
+               .weights = WeightKind::kReal,
                .upsampling = 2.0,
-               .rigor = PlanRigor::measure,
+               .rigor = PlanRigor::kMeasure,
                .threads = 1});
   const auto& size = plan.fine_size();
   const Eigen::Matrix3Xd points = globule<3>(atoms, side / 2);
@@ -77,9 +77,9 @@ void BM_NfftOfProtein(benchmark::State& state) {
     layout.transform[d].out_stride = d == 0 ? row * size[1] : row;
     layout.transform[d].in_stride = 2 * layout.transform[d].out_stride;
   }
-  const auto fft = FftPlan<float>::real_to_complex(layout, true, PlanRigor::measure);
+  const auto fft = FftPlan<float>::real_to_complex(layout, true, PlanRigor::kMeasure);
   AlignedVector<std::complex<float>> grid(static_cast<std::size_t>(size[0] * size[1] * row));
-  Spreader<3, float> spreader(size, {side, side, side}, plan.kernel(), WeightKind::real, 1);
+  Spreader<3, float> spreader(size, {side, side, side}, plan.kernel(), WeightKind::kReal, 1);
   AlignedVector<float> cells(spreader.grid_size());
   double whole = 1e30, bare = 1e30, spread = 1e30;
   for (auto _ : state) {
@@ -133,7 +133,7 @@ void BM_Nfft4dAgainstDirectSum(benchmark::State& state) {
   const std::array<double, 4> box{160.0, 160.0, 160.0, 8.5};
   Nfft4 plan(
       modes, box,
-      {.tolerance = 1e-6, .expected_points = count, .rigor = PlanRigor::measure, .threads = 1});
+      {.tolerance = 1e-6, .expected_points = count, .rigor = PlanRigor::kMeasure, .threads = 1});
   double fast = 1e30, slow = 1e30;
   for (auto _ : state) {
     fast = std::min(

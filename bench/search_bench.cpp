@@ -123,8 +123,8 @@ void measure(const std::string& fixed_path, const std::string& moving_path, int 
   const auto [nx, ny, nz] = search.grid_size();
   std::printf("%s %s\n  %td and %td knots, grid %d x %d x %d of %.1f\n", fixed_path.c_str(),
               moving_path.c_str(), fixed.size(), moving.size(), nx, ny, nz, options.spacing);
-  const double measured = bare_seconds(search.grid_size(), PlanRigor::measure);
-  const double patient = bare_seconds(search.grid_size(), PlanRigor::patient);
+  const double measured = bare_seconds(search.grid_size(), PlanRigor::kMeasure);
+  const double patient = bare_seconds(search.grid_size(), PlanRigor::kPatient);
   std::printf("  bare FFTW, one r2c + one c2r: %.1f us MEASURE, %.1f us PATIENT\n", 1e6 * measured,
               1e6 * patient);
   const Stages s = stages_of(channels, search, rotations, options, count);

@@ -10,21 +10,21 @@ namespace mortise {
 namespace {
 
 IsaLevel detect() noexcept {
-  IsaLevel level = IsaLevel::baseline;
+  IsaLevel level = IsaLevel::kBaseline;
 #if defined(__x86_64__)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    level = IsaLevel::avx2;
+    level = IsaLevel::kAvx2;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
-      level = IsaLevel::avx512;
+      level = IsaLevel::kAvx512;
   }
 #endif
   if (const char* wish = std::getenv("MORTISE_ISA")) {
     const std::string_view name = wish;
-    if (name == "baseline") level = IsaLevel::baseline;
-    if (name == "avx2") level = std::min(level, IsaLevel::avx2);
+    if (name == "baseline") level = IsaLevel::kBaseline;
+    if (name == "avx2") level = std::min(level, IsaLevel::kAvx2);
   }
   return level;
 }

@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-enum class IsaLevel { baseline, avx2, avx512 };
+enum class IsaLevel { kBaseline, kAvx2, kAvx512 };
 
 /// The best level this processor and system can run. The environment variable MORTISE_ISA
 /// (baseline, avx2, avx512) lowers it, for tests and timings; asking for more than there is changes
@@ -17,7 +17,7 @@ enum class IsaLevel { baseline, avx2, avx512 };
 template <class Table>
 [[nodiscard]] const Table& pick_isa(IsaLevel level, const Table& baseline, const Table& avx2,
                                     const Table& avx512) noexcept {
-  return level == IsaLevel::avx512 ? avx512 : level == IsaLevel::avx2 ? avx2 : baseline;
+  return level == IsaLevel::kAvx512 ? avx512 : level == IsaLevel::kAvx2 ? avx2 : baseline;
 }
 
 }  // namespace mortise

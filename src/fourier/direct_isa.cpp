@@ -14,7 +14,7 @@ constexpr int kLanes = 4;
 #else
 constexpr int kLanes = 2;
 #endif
-typedef double Vector __attribute__((vector_size(kLanes * sizeof(double))));
+using Vector __attribute__((vector_size(kLanes * sizeof(double)))) = double;
 
 [[gnu::always_inline]] inline Vector load(const double* p) {
   Vector v;

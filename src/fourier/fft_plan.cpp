@@ -24,13 +24,14 @@ std::mutex& planner_mutex() {
 }
 
 unsigned flags_of(PlanRigor rigor) {
-  return rigor == PlanRigor::estimate  ? FFTW_ESTIMATE
-         : rigor == PlanRigor::measure ? FFTW_MEASURE
-                                       : FFTW_PATIENT;
+  return rigor == PlanRigor::kEstimate  ? FFTW_ESTIMATE
+         : rigor == PlanRigor::kMeasure ? FFTW_MEASURE
+                                        : FFTW_PATIENT;
 }
 
 std::vector<fftw_iodim64> to_fftw(const std::vector<FftDim>& dims) {
   std::vector<fftw_iodim64> result;
+  result.reserve(dims.size());
   for (const FftDim& d : dims) result.push_back({d.size, d.in_stride, d.out_stride});
   return result;
 }
@@ -63,9 +64,10 @@ void check_layout(const FftLayout& layout) {
 FftLayout contiguous_layout(const std::vector<int>& size) {
   FftLayout layout;
   std::ptrdiff_t stride = 1;
-  for (auto n = size.rbegin(); n != size.rend(); ++n) {
-    layout.transform.insert(layout.transform.begin(), FftDim{*n, stride, stride});
-    stride *= *n;
+  layout.transform.resize(size.size());
+  for (std::size_t d = size.size(); d-- > 0;) {
+    layout.transform[d] = {size[d], stride, stride};
+    stride *= size[d];
   }
   return layout;
 }
@@ -100,7 +102,7 @@ FftPlan<Real> FftPlan<Real>::complex_to_complex(const FftLayout& layout, bool fo
     plan = fftw_plan_guru64_dft(rank, dims.data(), count, loops.data(), in, out, sign,
                                 flags_of(rigor));
   if (!plan) throw InputError("FftPlan: this layout cannot be transformed");
-  return FftPlan(plan, Kind::complex, in_place);
+  return FftPlan(plan, Kind::kComplex, in_place);
 }
 
 template <class Real>
@@ -123,7 +125,7 @@ FftPlan<Real> FftPlan<Real>::real_to_complex(const FftLayout& layout, bool in_pl
     plan =
         fftw_plan_guru64_dft_r2c(rank, dims.data(), count, loops.data(), in, out, flags_of(rigor));
   if (!plan) throw InputError("FftPlan: this layout cannot be transformed");
-  return FftPlan(plan, Kind::real_to_complex, in_place);
+  return FftPlan(plan, Kind::kRealToComplex, in_place);
 }
 
 template <class Real>
@@ -146,7 +148,7 @@ FftPlan<Real> FftPlan<Real>::complex_to_real(const FftLayout& layout, bool in_pl
     plan =
         fftw_plan_guru64_dft_c2r(rank, dims.data(), count, loops.data(), in, out, flags_of(rigor));
   if (!plan) throw InputError("FftPlan: this layout cannot be transformed");
-  return FftPlan(plan, Kind::complex_to_real, in_place);
+  return FftPlan(plan, Kind::kComplexToReal, in_place);
 }
 
 template <class Real>
@@ -163,7 +165,7 @@ void FftPlan<Real>::check(Kind kind, const void* in, const void* out) const {
 
 template <class Real>
 void FftPlan<Real>::run(const std::complex<Real>* in, std::complex<Real>* out) const {
-  check(Kind::complex, in, out);
+  check(Kind::kComplex, in, out);
   auto* const from = reinterpret_cast<Real(*)[2]>(const_cast<std::complex<Real>*>(in));
   auto* const to = reinterpret_cast<Real(*)[2]>(out);
   if constexpr (std::is_same_v<Real, float>)
@@ -174,7 +176,7 @@ void FftPlan<Real>::run(const std::complex<Real>* in, std::complex<Real>* out) c
 
 template <class Real>
 void FftPlan<Real>::run(const Real* in, std::complex<Real>* out) const {
-  check(Kind::real_to_complex, in, out);
+  check(Kind::kRealToComplex, in, out);
   auto* const to = reinterpret_cast<Real(*)[2]>(out);
   if constexpr (std::is_same_v<Real, float>)
     fftwf_execute_dft_r2c(static_cast<fftwf_plan>(plan_.get()), const_cast<Real*>(in), to);
@@ -184,7 +186,7 @@ void FftPlan<Real>::run(const Real* in, std::complex<Real>* out) const {
 
 template <class Real>
 void FftPlan<Real>::run(const std::complex<Real>* in, Real* out) const {
-  check(Kind::complex_to_real, in, out);
+  check(Kind::kComplexToReal, in, out);
   auto* const from = reinterpret_cast<Real(*)[2]>(const_cast<std::complex<Real>*>(in));
   if constexpr (std::is_same_v<Real, float>)
     fftwf_execute_dft_c2r(static_cast<fftwf_plan>(plan_.get()), from, out);

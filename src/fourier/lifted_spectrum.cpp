@@ -51,7 +51,7 @@ Eigen::MatrixXcd by_fourth_axis(const Knots& knots, const ConeSeries& cone, cons
   const std::array<double, 4> box4{box[0], box[1], box[2], cone.period()};
   const Eigen::Matrix4Xd& points = knots.points;
   const Eigen::VectorXcd sums =
-      options.form == LiftedForm::direct_4d
+      options.form == LiftedForm::kDirect4d
           ? direct_ndft(points, knots.weights, modes4, box4, options.threads)
           : nfft(points, knots.weights, modes4, box4,
                  {.tolerance = std::max(1e-12, kSumShare * options.tolerance),
@@ -128,7 +128,7 @@ Eigen::MatrixXcd lifted_spectrum(const Knots& knots, const RadialKernel& kernel,
   const double r_min = knots.points.row(3).minCoeff() + *least,
                r_max = knots.points.row(3).maxCoeff() + *most;
   const double tolerance = std::max(1e-10, kKernelShare * options.tolerance);
-  if (options.form == LiftedForm::compressed)
+  if (options.form == LiftedForm::kCompressed)
     return by_compression(knots,
                           compress_radius(kernel, k_max, r_min, r_max, {.tolerance = tolerance}),
                           shells, modes, box, options);

@@ -64,7 +64,7 @@ Choice choose(const std::array<int, D>& modes, const NfftOptions& options, doubl
   const double points =
       options.expected_points > 0 ? static_cast<double>(options.expected_points) : 0.25 * all_modes;
   const double scale = (std::is_same_v<Real, float> ? 1.0 : 2.0) *
-                       (options.weights == WeightKind::complex ? 2.0 : 1.0);
+                       (options.weights == WeightKind::kComplex ? 2.0 : 1.0);
   choice.cost = scale * (points * (10.0 + 0.08 * updates) + cells * 0.08 * std::log2(cells));
   return choice;
 }
@@ -102,7 +102,7 @@ Nfft<D, Real>::Nfft(const std::array<int, D>& modes, const std::array<double, D>
       shape_(modes),
       options_(options),
       spreader_(make_spreader<D, Real>(modes, box, options)) {
-  const bool real = options.weights == WeightKind::real;
+  const bool real = options.weights == WeightKind::kReal;
   if (real) shape_[D - 1] = modes[D - 1] / 2 + 1;
   const std::array<int, D>& size = spreader_.size();
   for (int d = 0; d < D; ++d) {
@@ -155,7 +155,7 @@ void Nfft<D, Real>::transform_block(int index) {
   for (int p = 0; p < planes; ++p) {
     Real* const plane = block + (D == 3 ? 0 : p * spreader_.stride(1));
     spreader_.fold_rows(plane, size[D - 2]);
-    if (options_.weights == WeightKind::real)
+    if (options_.weights == WeightKind::kReal)
       rows_.run(plane, at(plane));
     else
       rows_.run(at(plane), at(plane));
@@ -186,7 +186,7 @@ void Nfft<D, Real>::transform_first_axis(std::size_t index) {
     columns_[0][r].run(column + ranges_[r].first, column + ranges_[r].first);
 
   const int row = shape_[D - 1],
-            below = options_.weights == WeightKind::real ? 0 : modes_[D - 1] / 2;
+            below = options_.weights == WeightKind::kReal ? 0 : modes_[D - 1] / 2;
   const Real* const last_correction = correction_[D - 1].data();
   for (int x = 0; x < shape_[0]; ++x) {
     const Complex* const from = column + kept_[0][x] * (spreader_.stride(0) / 2);
@@ -217,13 +217,13 @@ template <int D, class Real>
 std::span<const std::complex<Real>> Nfft<D, Real>::transform(
     const PointsRef<D>& points, const Eigen::Ref<const Eigen::VectorX<Complex>>& weights) {
   return run(points, reinterpret_cast<const Real*>(weights.data()), weights.size(),
-             WeightKind::complex);
+             WeightKind::kComplex);
 }
 
 template <int D, class Real>
 std::span<const std::complex<Real>> Nfft<D, Real>::transform(
     const PointsRef<D>& points, const Eigen::Ref<const Eigen::VectorX<Real>>& weights) {
-  return run(points, weights.data(), weights.size(), WeightKind::real);
+  return run(points, weights.data(), weights.size(), WeightKind::kReal);
 }
 
 template class Nfft<3, float>;
@@ -237,7 +237,7 @@ template <int D>
 Eigen::VectorXcd one_shot(const Eigen::Matrix<double, D, Eigen::Dynamic>& points,
                           const Eigen::VectorXcd& weights, const std::array<int, D>& modes,
                           const std::array<double, D>& box, NfftOptions options) {
-  options.weights = WeightKind::complex;
+  options.weights = WeightKind::kComplex;
   if (options.expected_points == 0) options.expected_points = points.cols();
   Nfft<D, double> plan(modes, box, options);
   const auto result = plan.transform(points, weights);

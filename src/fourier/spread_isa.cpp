@@ -18,7 +18,7 @@ constexpr int kVectorBytes = 16;
 
 template <class Real, int Lanes>
 struct VectorOf {
-  typedef Real type __attribute__((vector_size(sizeof(Real) * Lanes)));
+  using type __attribute__((vector_size(sizeof(Real) * Lanes))) = Real;
 };
 
 constexpr int power_of_two_at_least(int n) {

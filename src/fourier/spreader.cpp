@@ -69,7 +69,7 @@ Spreader<D, Real>::Spreader(const Size& size, const std::array<double, D>& box,
   degree_ = pieces.degree;
   coefficients_.assign(pieces.coefficients.begin(), pieces.coefficients.end());
 
-  const std::ptrdiff_t parts = kind == WeightKind::complex ? 2 : 1, line = 64 / sizeof(Real);
+  const std::ptrdiff_t parts = kind == WeightKind::kComplex ? 2 : 1, line = 64 / sizeof(Real);
   std::ptrdiff_t row =
       std::max((size[D - 1] + padded_width_) * parts, std::ptrdiff_t{2} * (size[D - 1] / 2 + 1));
   row = (row + line - 1) / line * line;
@@ -95,7 +95,7 @@ Spreader<D, Real>::Spreader(const Size& size, const std::array<double, D>& box,
 template <int D, class Real>
 void Spreader<D, Real>::spread(const PointsRef<D>& points,
                                const Eigen::Ref<const Eigen::VectorX<Real>>& weights, Real* grid) {
-  spread_unfolded(points, weights.data(), weights.size(), WeightKind::real, grid);
+  spread_unfolded(points, weights.data(), weights.size(), WeightKind::kReal, grid);
   for (int i = 0; i < size_[0]; ++i)
     fold_rows(grid + i * stride_[0], D == 3 ? size_[1] : size_[1] * size_[2]);
 }
@@ -105,7 +105,7 @@ void Spreader<D, Real>::spread(const PointsRef<D>& points,
                                const Eigen::Ref<const Eigen::VectorX<std::complex<Real>>>& weights,
                                Real* grid) {
   spread_unfolded(points, reinterpret_cast<const Real*>(weights.data()), weights.size(),
-                  WeightKind::complex, grid);
+                  WeightKind::kComplex, grid);
   for (int i = 0; i < size_[0]; ++i)
     fold_rows(grid + i * stride_[0], D == 3 ? size_[1] : size_[1] * size_[2]);
 }
@@ -206,7 +206,7 @@ void Spreader<D, Real>::spread_in_tiles(const PointsRef<D>& points, const Real* 
       table.spread[D - 3][parts - 1](
           job, {start_.data(), fraction_.data(), weights, order_.data() + first, last - first});
     };
-    parallel_for(static_cast<std::size_t>(tiles_[0] / step0 * (tiles_[1] / step1)), threads_,
+    parallel_for(static_cast<std::size_t>(tiles_[0] / step0) * (tiles_[1] / step1), threads_,
                  std::ref(spread_tile));
   }
 }

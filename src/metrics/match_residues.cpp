@@ -221,6 +221,7 @@ ResidueMatch match_residues(const Molecule& model, const Molecule& reference,
   std::vector<Candidate> by_name;
   std::vector<const Chain*> model_left;
   std::vector<const Chain*> reference_left;
+  reference_left.reserve(reference_chains.size());
   for (const Chain& c : reference_chains) reference_left.push_back(&c);
   for (const Chain& m : model_chains) {
     const auto same = std::find_if(reference_left.begin(), reference_left.end(),
@@ -244,6 +245,7 @@ ResidueMatch match_residues(const Molecule& model, const Molecule& reference,
       table[i].push_back(std::move(found));
     }
   std::vector<const Candidate*> chosen;
+  chosen.reserve(by_name.size());
   for (const Candidate& c : by_name) chosen.push_back(&c);
   const bool few = std::max(model_left.size(), reference_left.size()) <= kChainsToPermute;
   const std::vector<const Candidate*> others =

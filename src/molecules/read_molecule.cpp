@@ -44,6 +44,7 @@ Records select_model(Records records, const MoleculeSpec& spec,
   const int wanted = spec.model > 0 ? spec.model : records.front().model;
   if (!models.contains(wanted)) {
     std::vector<std::string> names;
+    names.reserve(models.size());
     for (const int model : models) names.push_back(std::to_string(model));
     throw InputError(spec.path + ": expected model " + std::to_string(wanted) + ", found " +
                      (names.size() == 1 ? "only model " : "models ") + joined(names));

@@ -93,13 +93,13 @@ std::string element_from_name(std::string_view padded_name, std::string_view res
     return symbol_of(letters.substr(0, 1));
   }
   // An ion's residue bears its element's name: CA, ZN, FE2.
-  const std::string residue_symbol = symbol_of(upper_letters(residue_name));
+  std::string residue_symbol = symbol_of(upper_letters(residue_name));
   if (letters.size() == 2 && upper_letters(residue_name) == letters && !residue_symbol.empty())
     return residue_symbol;
   // Two letters and no more, starting in the first column ("FE  ", "CL1 ", not " CA " nor "CAB ").
   // Bare names tell no column, so only symbols that no C, N, O, P, S or H atom's name begins with
   // count there.
-  const std::string two = letters.size() == 2 ? symbol_of(letters) : std::string();
+  std::string two = letters.size() == 2 ? symbol_of(letters) : std::string();
   const bool left = padded_name.size() == 4 && padded_name[0] != ' ' &&
                     (padded_name[2] == ' ' || padded_name[3] == ' ');
   const bool distinct = std::string_view("CNOPSHD").find(letters[0]) == std::string_view::npos ||

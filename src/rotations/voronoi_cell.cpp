@@ -98,7 +98,7 @@ void VoronoiCell::cut(const Eigen::Vector4d& relative, Eigen::Index neighbour) {
       if (da <= slack_) ring_.push_back(a);
       if (std::abs(da) <= slack_) section_.push_back(a);
       if ((da < -slack_ && db > slack_) || (da > slack_ && db < -slack_)) {
-        ring_.push_back(a + (b - a) * (da / (da - db)));
+        ring_.emplace_back(a + (b - a) * (da / (da - db)));
         section_.push_back(ring_.back());
       }
     }

@@ -79,7 +79,7 @@ class FixedField {
  public:
   FixedField(const std::array<int, 3>& size, double spacing, int threads)
       : nfft_(size, {size[0] * spacing, size[1] * spacing, size[2] * spacing},
-              {.tolerance = kFixedTolerance, .weights = WeightKind::real, .threads = threads}),
+              {.tolerance = kFixedTolerance, .weights = WeightKind::kReal, .threads = threads}),
         frequency_(static_cast<std::size_t>(size[0]) * size[1] * (size[2] / 2 + 1)) {
     std::size_t n = 0;
     for (int i = 0; i < size[0]; ++i)

@@ -64,7 +64,7 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
   table_ = &pick_isa(best_isa(), isa_baseline::kSearchTable, isa_avx2::kSearchTable,
                      isa_avx512::kSearchTable);
   const Spreader<3, float> spreader(corner_, corner_box(corner_, spacing), kernel_,
-                                    WeightKind::real);
+                                    WeightKind::kReal);
   using Fft = FftPlan<float>;
   const std::ptrdiff_t c = columns_;
   // An odd number of cache lines, so that a line across all planes does not fall into few cache
@@ -83,7 +83,7 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
 
 Correlator::Workspace::Workspace(const Correlator& plan)
     : spreader(plan.corner_, corner_box(plan.corner_, plan.spacing_), plan.kernel_,
-               WeightKind::real) {
+               WeightKind::kReal) {
   const auto [nx, ny, nz] = plan.size_;
   const auto plane = static_cast<std::size_t>(plan.plane_);
   corner.resize(spreader.grid_size());

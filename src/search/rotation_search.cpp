@@ -308,10 +308,10 @@ double bare_fft_seconds(const std::array<int, 3>& grid_size) {
   // Both arrays contiguous, as FFTW's own simple interface has them.
   const auto forward = FftPlan<float>::real_to_complex(
       {{{nx, std::ptrdiff_t{ny} * nz, ny * nc}, {ny, nz, nc}, {nz, 1, 1}}, {}}, false,
-      PlanRigor::measure);
+      PlanRigor::kMeasure);
   const auto backward = FftPlan<float>::complex_to_real(
       {{{nx, ny * nc, std::ptrdiff_t{ny} * nz}, {ny, nc, nz}, {nz, 1, 1}}, {}}, false,
-      PlanRigor::measure);
+      PlanRigor::kMeasure);
   AlignedVector<float> real(static_cast<std::size_t>(nx) * ny * nz, 0.0F);
   AlignedVector<std::complex<float>> half(static_cast<std::size_t>(nx) * ny * nc);
   double best = std::numeric_limits<double>::infinity();

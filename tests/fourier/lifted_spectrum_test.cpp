@@ -57,7 +57,7 @@ TEST(LiftedSpectrum, ThreeFormsEqualTheOffsetShapesAtEveryTolerance) {
     for (const RadialKernel& kernel : {RadialKernel(), RadialKernel(2.0)})
       for (const double tolerance : {1e-2, 1e-3, 1e-5, 1e-8})
         for (const LiftedForm form :
-             {LiftedForm::direct_4d, LiftedForm::nfft_4d, LiftedForm::compressed}) {
+             {LiftedForm::kDirect4d, LiftedForm::kNfft4d, LiftedForm::kCompressed}) {
           const Eigen::MatrixXcd slices = lifted_spectrum(
               knots, kernel, kModes, kBox,
               {.offsets = {0.0, r0, 2.0 * r0}, .tolerance = tolerance, .form = form});

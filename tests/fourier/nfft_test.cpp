@@ -81,7 +81,7 @@ void sweep(const std::array<int, D>& modes, std::initializer_list<double> tolera
         if (upsampling == 1.25 && tolerance < least_narrow)
           continue;  // its correction magnifies rounding
         NfftOptions options{.tolerance = tolerance, .upsampling = upsampling, .threads = 1};
-        if (real) options.weights = WeightKind::real;
+        if (real) options.weights = WeightKind::kReal;
         Nfft<D, Real> plan(modes, p.box, options);
         // The expected error is a mean over points; for 60 of them it holds within a few per cent
         // of what was left.
@@ -123,7 +123,7 @@ TEST(Nfft, MeetsToleranceWithSortedPointsOnALargeGrid) {
   const std::array modes{50, 36, 70};  // 2 x: 100 x 72 x 144 doubles, above the threshold of tiling
   for (const bool real : {false, true}) {
     NfftOptions options{.tolerance = 1e-5, .upsampling = 2.0};
-    if (real) options.weights = WeightKind::real;
+    if (real) options.weights = WeightKind::kReal;
     Nfft3 plan(modes, p.box, options);
     EXPECT_LT(relative_error(plan, p, real), 1e-5);
   }
@@ -138,7 +138,7 @@ TEST(Nfft, TinyGridsAndOneMode) {
       Nfft3 complex_plan(modes, p.box, {.tolerance = tolerance});
       EXPECT_LT(relative_error(complex_plan, p, false), tolerance)
           << modes[0] << modes[1] << modes[2];
-      Nfft3 real_plan(modes, p.box, {.tolerance = tolerance, .weights = WeightKind::real});
+      Nfft3 real_plan(modes, p.box, {.tolerance = tolerance, .weights = WeightKind::kReal});
       EXPECT_LT(relative_error(real_plan, p, true), tolerance) << modes[0] << modes[1] << modes[2];
     }
     Nfft4 plan({2, 1, 3, 1}, p4.box, {.tolerance = tolerance});
@@ -169,7 +169,7 @@ TEST(Nfft, OnePointBordersAndClusters) {
 TEST(Nfft, RealHalfSpectrumHoldsThePositiveNyquistMode) {
   Problem<3> p = random_problem<3>(20, 9);
   p.weights.imag().setZero();
-  Nfft3 plan({4, 4, 6}, p.box, {.tolerance = 1e-10, .weights = WeightKind::real});
+  Nfft3 plan({4, 4, 6}, p.box, {.tolerance = 1e-10, .weights = WeightKind::kReal});
   const Eigen::VectorXd weights = p.weights.real();
   const auto result = plan.transform(p.points, weights);
   const Eigen::VectorXcd odd = reference::ndft<3>(p.points, p.weights, {4, 4, 7}, p.box);
@@ -187,7 +187,7 @@ TEST(Nfft, SameBytesForAnyNumberOfThreads) {
   const Eigen::VectorXf weights = p.weights.real().cast<float>();
   for (const int threads : {1, 2, 5}) {
     Nfft3f plan({60, 50, 80}, p.box,
-                {.tolerance = 1e-5, .weights = WeightKind::real, .threads = threads});
+                {.tolerance = 1e-5, .weights = WeightKind::kReal, .threads = threads});
     const auto result = plan.transform(p.points, weights);
     Nfft4 plan4({16, 16, 14, 8}, p4.box, {.tolerance = 1e-6, .threads = threads});
     const auto result4 = plan4.transform(p4.points, p4.weights);

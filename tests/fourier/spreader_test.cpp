@@ -23,7 +23,7 @@ void compare_with_kernel(int width_wanted) {
   const SpreadKernel kernel =
       design_spread_kernel(std::pow(10.0, -width_wanted), modes, size, 1e-16);
   const std::array box{5.0, 6.0, 7.0};
-  Spreader<3, Real> spreader(size, box, kernel, WeightKind::complex, 1);
+  Spreader<3, Real> spreader(size, box, kernel, WeightKind::kComplex, 1);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::Matrix3Xd points(3, 7);

@@ -13,7 +13,7 @@ namespace mortise {
 /// How long to look for a fast plan. `estimate` is immediate and always finds the same plan; the
 /// others time candidates, so another process may find another plan, whose results differ in the
 /// last bits.
-enum class PlanRigor { estimate, measure, patient };
+enum class PlanRigor { kEstimate, kMeasure, kPatient };
 
 /// One axis of a transform or of a loop around it: element i is at i * stride, counted in elements
 /// of its array.
@@ -44,13 +44,13 @@ class FftPlan {
   /// Complex to complex; `forward` false: the backward transform, exp(+2 pi i ...).
   [[nodiscard]] static FftPlan complex_to_complex(const FftLayout& layout, bool forward,
                                                   bool in_place,
-                                                  PlanRigor rigor = PlanRigor::estimate);
+                                                  PlanRigor rigor = PlanRigor::kEstimate);
   /// Real to half-complex, forward. In place, the rows of reals are padded to 2 (n / 2 + 1).
   [[nodiscard]] static FftPlan real_to_complex(const FftLayout& layout, bool in_place,
-                                               PlanRigor rigor = PlanRigor::estimate);
+                                               PlanRigor rigor = PlanRigor::kEstimate);
   /// Half-complex to real, backward; in more than one dimension the input is destroyed.
   [[nodiscard]] static FftPlan complex_to_real(const FftLayout& layout, bool in_place,
-                                               PlanRigor rigor = PlanRigor::estimate);
+                                               PlanRigor rigor = PlanRigor::kEstimate);
 
   /// Runs the plan. Arrays are aligned to 16 bytes and hold what the layout reaches; in == out iff
   /// the plan is in place.
@@ -62,7 +62,7 @@ class FftPlan {
   [[nodiscard]] explicit operator bool() const noexcept { return plan_ != nullptr; }
 
  private:
-  enum class Kind { complex, real_to_complex, complex_to_real };
+  enum class Kind { kComplex, kRealToComplex, kComplexToReal };
   struct Destroy {
     void operator()(void* plan) const noexcept;
   };
@@ -70,7 +70,7 @@ class FftPlan {
   void check(Kind kind, const void* in, const void* out) const;
 
   std::unique_ptr<void, Destroy> plan_;
-  Kind kind_ = Kind::complex;
+  Kind kind_ = Kind::kComplex;
   bool in_place_ = false;
 };
 

@@ -14,15 +14,16 @@ namespace mortise {
 
 /// How to sum; all three agree to the tolerance.
 enum class LiftedForm {
-  direct_4d,   ///< the 4D sum term by term, then over the fourth frequency with the cone's series
-  nfft_4d,     ///< the same with the 4D NFFT, as in the paper
-  compressed,  ///< a few 3D NFFTs per slice, phi^(k; r) ~ sum_q a_q(k) b_q(r); what the search runs
+  kDirect4d,    ///< the 4D sum term by term, then over the fourth frequency with the cone's series
+  kNfft4d,      ///< the same with the 4D NFFT, as in the paper
+  kCompressed,  ///< a few 3D NFFTs per slice, phi^(k; r) ~ sum_q a_q(k) b_q(r); what the search
+                ///< runs
 };
 
 struct LiftedOptions {
   std::vector<double> offsets = {0.0};  ///< r0 per slice, added to every radius; >= 0, length unit
   double tolerance = 1e-4;  ///< relative l2 error over the modes of a slice; 1e-8 to 0.1
-  LiftedForm form = LiftedForm::compressed;
+  LiftedForm form = LiftedForm::kCompressed;
   int threads = 0;  ///< 0 = all cores; never changes the result
 };
 

@@ -19,12 +19,12 @@ namespace mortise {
 struct NfftOptions {
   double tolerance = 1e-6;  ///< relative l2 error over all modes (points in step with the grid: up
                             ///< to 1.5 times); 1e-12 to 1e-1, float: 1e-6 to 1e-1
-  WeightKind weights = WeightKind::complex;
+  WeightKind weights = WeightKind::kComplex;
   double upsampling = 0.0;  ///< fine grid cells per mode and axis, > 1; 0 = the one of 1.25, 1.5, 2
                             ///< that should cost least
   std::ptrdiff_t expected_points =
       0;  ///< only helps to choose the upsampling; 0 = a quarter of the number of modes
-  PlanRigor rigor = PlanRigor::estimate;
+  PlanRigor rigor = PlanRigor::kEstimate;
   int threads = 0;  ///< 0 = all cores; never changes the result
 };
 

@@ -15,7 +15,7 @@
 
 namespace mortise {
 
-enum class WeightKind { complex, real };
+enum class WeightKind { kComplex, kReal };
 
 /// Points in D dimensions, one per column; any block of columns of equal height will do, e.g.
 /// knots.points.topRows<3>().
