@@ -18,7 +18,7 @@ constexpr int kVectorBytes = 16;
 
 template <class Real, int Lanes>
 struct VectorOf {
-  using type __attribute__((vector_size(sizeof(Real) * Lanes))) = Real;
+  using Type __attribute__((vector_size(sizeof(Real) * Lanes))) = Real;
 };
 
 constexpr int power_of_two_at_least(int n) {
@@ -55,7 +55,7 @@ template <class V, class Real>
 template <class Real, int W>
 [[gnu::always_inline]] inline void evaluate(const SpreadJob<Real>& job, Real z, Real* values) {
   using L = Layout<Real, W>;
-  using V = typename VectorOf<Real, L::kLanes>::type;
+  using V = typename VectorOf<Real, L::kLanes>::Type;
   for (int b = 0; b < L::kBlocks; ++b) {
     const Real* c = job.coefficients + b * L::kLanes;
     V v = load<V>(c);
@@ -70,7 +70,7 @@ template <class Real, int W>
 template <class Real, int D, int W, bool Complex>
 void spread_width(const SpreadJob<Real>& job, const SpreadPoints<Real>& points) {
   using L = Layout<Real, W>;
-  using V = typename VectorOf<Real, L::kLanes>::type;
+  using V = typename VectorOf<Real, L::kLanes>::Type;
   constexpr int kParts = Complex ? 2 : 1;
   constexpr int kVectors = L::kBlocks * kParts;
   alignas(64) Real values[D][L::kPadded];
