@@ -46,11 +46,16 @@ void set_command_line(int argc, const char* const* argv);
 [[nodiscard]] double peak_memory_mb();
 
 /// Each adds one subcommand; its callback does the work and throws on errors.
+void add_assemble(CLI::App& program);
 void add_benchmark(CLI::App& program);
+void add_collide(CLI::App& program);
+void add_decompose(CLI::App& program);
 void add_dock(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);
 void add_info(CLI::App& program);
+void add_mate(CLI::App& program);
+void add_report(CLI::App& program);
 void add_rotations(CLI::App& program);
 
 }  // namespace mortise::app

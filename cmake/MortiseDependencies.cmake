@@ -9,6 +9,10 @@ find_package(Boost 1.74 REQUIRED COMPONENTS iostreams)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
+# Meshes; header only. Kernels are exact where they must be (GMP, MPFR).
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
+find_package(CGAL 5.5 REQUIRED)
+find_package(OpenCASCADE REQUIRED CONFIG)  # its version file accepts no range
 # OpenMM's readers are Python: use Debian's interpreter, not whatever stands first on the PATH.
 if(NOT DEFINED Python_EXECUTABLE)
   set(Python_EXECUTABLE /usr/bin/python3)
