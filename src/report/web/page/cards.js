@@ -110,7 +110,7 @@ function funnelCard(run, state) {
       column = run.column[key];
       card.repaint();
     })],
-    note: usable.length ? 'Score against the distance from the known complex; click a point to see its pose.' : 'Score against another quantity; click a point to see its pose.',
+    note: 'Click a point to see its pose.',
     draw(context, width, height) {
       plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'score' });
       const classes = capri ? ['incorrect', 'acceptable', 'medium', 'high'] : [null];
@@ -147,6 +147,14 @@ function funnelCard(run, state) {
     },
     describe: () => `Scatter plot of the score against ${column.label} for ${run.count} poses`,
   });
+  if (capri) {
+    const present = ['high', 'medium', 'acceptable', 'incorrect'].filter((name, k) => capri.values.includes(3 - k));
+    card.note(...present.map((name) => {
+      const dot = element('i', { class: 'swatch' });
+      dot.style.background = `var(--${name})`;
+      return element('span', { class: 'key' }, dot, name);
+    }), element('span', {}, 'Click a point to see its pose.'));
+  }
   return card;
 }
 
@@ -319,6 +327,10 @@ function contactCard(run, state, viewer) {
   const { fixed, moving } = viewer;
   let plot = null;
   let hovered = [];
+  // A tick: the residue's number, after its chain where there are several.
+  const several = (body) => new Set(body.names.map((r) => r.chain)).size > 1;
+  const many = new Map([[fixed, several(fixed)], [moving, several(moving)]]);
+  const short = (body, k) => (body.names[k] ? `${many.get(body) ? `${body.names[k].chain}:` : ''}${body.names[k].number}` : '');
   const name = (body, k) => `${body.names[k].chain}:${body.names[k].text}`;
   // Chains follow each other on both axes; a line between two of them.
   const borders = (body) => body.names.flatMap((r, k) => (k > 0 && body.names[k - 1].chain !== r.chain ? [k] : []));
@@ -338,7 +350,7 @@ function contactCard(run, state, viewer) {
     note: '',
     draw(context, width, height) {
       const contacts = viewer.contacts();
-      plot = axes(context, width, height, { x: span(contacts, 'moving', moving.names.length), y: span(contacts, 'fixed', fixed.names.length), xLabel: `${fitting(run.bodies[1].name, 26)}, residue`, yLabel: `${fitting(run.bodies[0].name, 26)}, residue` });
+      plot = axes(context, width, height, { x: span(contacts, 'moving', moving.names.length), y: span(contacts, 'fixed', fixed.names.length), xLabel: fitting(run.bodies[1].name, 30), yLabel: fitting(run.bodies[0].name, 30), xText: (k) => short(moving, k), yText: (k) => short(fixed, k) });
       context.strokeStyle = themeColor('line-strong');
       context.setLineDash([4, 3]);
       context.beginPath();
@@ -360,7 +372,7 @@ function contactCard(run, state, viewer) {
         context.fillRect(c.x, c.y, w, h);
       }
       const pairs = contacts.length;
-      card.note(pairs ? `${pairs} residue pairs within 5 \u00c5 of each other; darker is closer.` : 'No residues within 5 \u00c5 of each other.');
+      card.note(pairs ? `${pairs} residue pairs within 5 \u00c5 of each other; the stronger the colour, the closer.` : 'No residues within 5 \u00c5 of each other.');
     },
     hover: (x, y) => {
       const c = hovered.find((d) => x >= d.x - 1 && x <= d.x + d.w + 1 && y >= d.y - 1 && y <= d.y + d.h + 1);

@@ -20,7 +20,7 @@ export function ramp(share, dark = isDark()) {
 export const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 export const hex = ([r, g, b]) => (r << 16) | (g << 8) | b;
 
-export const rampCss = () => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map((s) => css(ramp(s))).join(', ')})`;
+export const rampCss = (dark) => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map((s) => css(ramp(s, dark))).join(', ')})`;
 
 /** The bodies in the 3D view; the same in both themes, so that pictures match. */
-export const BODY = { fixed: 0x8aa6c6, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12 };
+export const BODY = { fixed: 0x7f9fc4, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12 };

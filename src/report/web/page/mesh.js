@@ -4,9 +4,11 @@ import { BODY } from './colors.js';
 import { moved } from './geometry.js';
 
 const CREASE = Math.cos((30 * Math.PI) / 180);  // edges that bend more are drawn
+const LIFT = 2e-3;  // of the part's radius
+const EDGES_PER_SHAPE = 400;  // the viewer goes through all lines of a shape for each line added
 
 /** Corners with normals of their own where the surface bends, and the lines along such edges. */
-function prepare({ vertices, triangles }) {
+function prepare({ mesh: { vertices, triangles }, radius }) {
   const faces = triangles.length / 3;
   const normals = new Float32Array(3 * faces);
   const areas = new Float32Array(3 * faces);  // normals by twice the area
@@ -48,12 +50,14 @@ function prepare({ vertices, triangles }) {
       if (other) other.push(f);
       else sides.set(key, [f]);
     }
-  const edges = [];
-  for (const [key, shared] of sides)
-    if (shared.length !== 2 || dot(shared[0], shared[1]) < CREASE) edges.push(Math.floor(key / count), key % count);
-  const ends = new Float32Array(3 * edges.length);
-  edges.forEach((v, i) => { for (let k = 0; k < 3; ++k) ends[3 * i + k] = vertices[3 * v + k]; });
-  return { points, normals: cornerNormals, ends, corners: triangles };
+  const ends = [];
+  for (const [key, shared] of sides) {
+    if (shared.length === 2 && dot(shared[0], shared[1]) >= CREASE) continue;
+    // A hair outside of the surface, or the faces would hide half of the line.
+    const lift = [0, 1, 2].map((k) => LIFT * radius * shared.reduce((sum, f) => sum + normals[3 * f + k], 0) / shared.length);
+    for (const v of [Math.floor(key / count), key % count]) for (let k = 0; k < 3; ++k) ends.push(vertices[3 * v + k] + lift[k]);
+  }
+  return { points, normals: cornerNormals, ends: Float32Array.from(ends), corners: triangles };
 }
 
 const xyz = (numbers) => {
@@ -63,8 +67,8 @@ const xyz = (numbers) => {
 };
 
 export function showMesh(viewer, fixedBody, movingBody) {
-  const fixed = prepare(fixedBody.mesh);
-  const moving = prepare(movingBody.mesh);
+  const fixed = prepare(fixedBody);
+  const moving = prepare(movingBody);
   const still = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
   let shapes = [];
   let drawnFixed = '';
@@ -78,9 +82,9 @@ export function showMesh(viewer, fixedBody, movingBody) {
     else spec.color = color;
     const made = [viewer.addCustom(spec)];
     const ends = moved(m, part.ends);
-    if (ends.length) {
-      const lines = viewer.addShape({ color: edgeColor, linewidth: 1 });
-      for (let i = 0; i < ends.length; i += 6)
+    for (let from = 0; from < ends.length; from += 6 * EDGES_PER_SHAPE) {
+      const lines = viewer.addShape({ color: edgeColor, wireframe: true, linewidth: 1 });
+      for (let i = from; i < Math.min(ends.length, from + 6 * EDGES_PER_SHAPE); i += 6)
         lines.addLine({ start: { x: ends[i], y: ends[i + 1], z: ends[i + 2] }, end: { x: ends[i + 3], y: ends[i + 4], z: ends[i + 5] } });
       made.push(lines);
     }

@@ -61,11 +61,11 @@ export function makeCard(parent, title, { controls = [], note = '', draw, hover,
     });
   };
   new ResizeObserver(repaint).observe(canvas);
-  return { repaint, note: (text) => { noteLine.textContent = text; } };
+  return { repaint, note: (...parts) => noteLine.replaceChildren(...parts) };
 }
 
 /** Axes in the left and lower margin; gives the scales of the plot's inside. */
-export function axes(context, width, height, { x, y, xLabel, yLabel, logY = false, yTicks = true }) {
+export function axes(context, width, height, { x, y, xLabel, yLabel, logY = false, yTicks = true, xText, yText }) {
   const left = yTicks ? 46 : 12;
   const bottom = 34;
   const top = 8;
@@ -89,7 +89,7 @@ export function axes(context, width, height, { x, y, xLabel, yLabel, logY = fals
       context.moveTo(inner.left, at);
       context.lineTo(inner.right, at);
       context.stroke();
-      context.fillText(logY ? v.toLocaleString('en') : tickText(v, list), inner.left - 6, at);
+      context.fillText(yText ? yText(v) : logY ? v.toLocaleString('en') : tickText(v, list), inner.left - 6, at);
     }
   }
   context.textAlign = 'center';
@@ -101,7 +101,7 @@ export function axes(context, width, height, { x, y, xLabel, yLabel, logY = fals
     context.moveTo(at, inner.bottom);
     context.lineTo(at, inner.bottom + 4);
     context.stroke();
-    context.fillText(tickText(v, list), at, inner.bottom + 6);
+    context.fillText(xText ? xText(v) : tickText(v, list), at, inner.bottom + 6);
   }
   context.strokeStyle = themeColor('line-strong');
   context.beginPath();

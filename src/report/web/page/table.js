@@ -46,7 +46,7 @@ export function makeTable(run, select) {
   const body = element('tbody');
   const heads = run.columns.map((c) => element('th', { scope: 'col', 'aria-sort': 'none' },
     element('button', { type: 'button', title: c.about, onclick: () => sortBy(c) },
-      c.label, c.unit ? element('span', { class: 'unit' }, ` ${c.unit}`) : null, element('span', { class: 'arrow', 'aria-hidden': 'true' }))));
+      element('span', { class: 'arrow', 'aria-hidden': 'true' }), c.label, c.unit ? element('span', { class: 'unit' }, ` ${c.unit}`) : null)));
   const table = element('table', { 'aria-label': 'Ranked poses', 'aria-colcount': run.columns.length },
     element('thead', {}, element('tr', { 'aria-rowindex': 1 }, ...heads)), body);
   scroller.append(table);
@@ -78,7 +78,7 @@ export function makeTable(run, select) {
     heads.forEach((head, k) => {
       const here = run.columns[k] === column;
       head.setAttribute('aria-sort', here ? (descending ? 'descending' : 'ascending') : 'none');
-      head.querySelector('.arrow').textContent = here ? (descending ? '\u25be' : '\u25b4') : '';
+      head.querySelector('.arrow').textContent = here ? (descending ? '\u25bc' : '\u25b2') : '';
     });
     table.setAttribute('aria-rowcount', order.length + 1);
     byId('count').textContent = order.length === run.count ? countText(run.count, 'pose')

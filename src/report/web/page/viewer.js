@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The 3D view of one pose: molecules as surface and cartoon, parts as meshes.
 import { BODY, hex, isDark, ramp, rampCss } from './colors.js';
-import { byId, checkbox, choice, element, slider } from './dom.js';
+import { byId, checkbox, choice, element, slider, themeColor } from './dom.js';
 import { Cells, motion, moved } from './geometry.js';
 import { showMesh } from './mesh.js';
 
 export const INTERFACE_CUTOFF = 5;  // angstrom between heavy atoms
+
+/** Turns by \u221235 degrees about z, then by \u221262 about x. */
+const OBLIQUE = [-0.4912, 0.1549, -0.2578, 0.8175];
 
 const isPolymer = (atom) => !atom.hetflag;
 const residueKey = (atom) => `${atom.chain}\u0000${atom.resi}\u0000${atom.icode ?? ''}\u0000${atom.resn}`;
@@ -17,7 +20,7 @@ function residuesOf(atoms) {
   let last = null;
   atoms.forEach((atom, i) => {
     const key = residueKey(atom);
-    if (key !== last) names.push({ chain: atom.chain?.trim() || '\u2013', text: `${atom.resn}${atom.resi}${(atom.icode ?? '').trim()}` });
+    if (key !== last) names.push({ chain: atom.chain?.trim() || '\u2013', text: `${atom.resn}${atom.resi}${(atom.icode ?? '').trim()}`, number: `${atom.resi}${(atom.icode ?? '').trim()}` });
     last = key;
     of[i] = names.length - 1;
   });
@@ -44,7 +47,7 @@ export async function makeViewer(run) {
   }
   let viewer;
   try {
-    viewer = globalThis.$3Dmol.createViewer(stage, { backgroundAlpha: 0, antialias: true, cartoonQuality: 6, disableFog: true });
+    viewer = globalThis.$3Dmol.createViewer(stage, { backgroundColor: themeColor('stage'), antialias: true, cartoonQuality: 6, disableFog: true });
   } catch {
     viewer = null;
   }
@@ -57,7 +60,7 @@ export async function makeViewer(run) {
   canvas.setAttribute('aria-label', '3D view of the chosen pose');
 
   const isMesh = Boolean(fixedBody.mesh);
-  const options = { seeThrough: isMesh ? 45 : 15, exploded: 0, fixedStyle: 'surface', colour: 'plain', residues: !isMesh, labels: false };
+  const options = { seeThrough: isMesh ? 40 : 15, exploded: 0, fixedStyle: 'surface', colour: 'plain', residues: !isMesh, labels: false };
   let current = -1;
   let shown = null;  // { fixed: Set of atom indices, moving: Set } of the interface
   let contacts = [];
@@ -77,7 +80,7 @@ export async function makeViewer(run) {
   const surfaceStyle = () => ({
     opacity: 1 - options.seeThrough / 100,
     ...(options.colour === 'density'
-      ? { colorfunc: (atom) => hex(ramp(share(fixed.of[atom.index]))) }
+      ? { colorfunc: (atom) => hex(ramp(share(fixed.of[atom.index]), false)) }
       : { color: BODY.fixed }),
   });
   async function updateSurface() {
@@ -150,7 +153,7 @@ export async function makeViewer(run) {
 
   function place() {
     if (isMesh) {
-      const colours = options.colour === 'density' ? Array.from(frequency, (_, i) => ramp(share(i))) : null;
+      const colours = options.colour === 'density' ? Array.from(frequency, (_, i) => ramp(share(i), false)) : null;
       meshes.draw(current < 0 ? null : motion(run, current, explodedShift()), { opacity: 1 - options.seeThrough / 100, colours });
     } else {
       moved(current < 0 ? [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0] : motion(run, current, explodedShift()), moving.input, moving.at = new Float32Array(moving.input.length));
@@ -183,7 +186,8 @@ export async function makeViewer(run) {
     for (const listener of listeners) listener();
   }
 
-  // Looks at right angles to the line between the bodies, so that neither hides the other.
+  // Molecules: at right angles to the line between the bodies, so that neither hides the other. Parts: from above,
+  // z upward, as drawings show them.
   function home() {
     const at = current < 0 ? movingBody.center : [...moved(motion(run, current), movingBody.center)];
     const d = [0, 1, 2].map((k) => at[k] - fixedBody.center[k]);
@@ -195,12 +199,12 @@ export async function makeViewer(run) {
     const dot = u[0] * goal[0] + u[1] * goal[1] + u[2] * goal[2];
     const w = 1 + dot;
     const norm = Math.hypot(w, ...axis);
-    const q = norm < 1e-6 ? [0, 0, 1, 0] : [axis[0] / norm, axis[1] / norm, axis[2] / norm, w / norm];
+    const beside = norm < 1e-6 ? [0, 0, 1, 0] : [axis[0] / norm, axis[1] / norm, axis[2] / norm, w / norm];
+    const q = isMesh ? OBLIQUE : beside;
     const view = viewer.getView();
     viewer.setView([view[0], view[1], view[2], view[3], ...q]);
     if (isMesh) meshes.zoom();
     else viewer.zoomTo();
-    viewer.zoom(isMesh ? 1.0 : 1.15);
     viewer.render();
   }
 
@@ -214,7 +218,7 @@ export async function makeViewer(run) {
     const rows = [swatch(BODY.fixed, fixedBody.name), swatch(BODY.moving, movingBody.name)];
     if (options.colour === 'density') {
       const bar = element('i', { class: 'ramp' });
-      bar.style.background = rampCss();
+      bar.style.background = rampCss(false);
       rows.push(element('div', {}, bar, element('span', {}, `touched by 0 to ${Math.round(100 * most)}% of the best ${run.frequency_poses.toLocaleString('en')} poses`)));
     }
     legend.replaceChildren(...rows);
@@ -251,10 +255,11 @@ export async function makeViewer(run) {
     link.click();
   }
 
+  // The ground is opaque: over a see-through one the browser would blend see-through surfaces twice.
   function theme() {
+    viewer.setBackgroundColor(themeColor('stage'), 1);
     drawLegend();
-    if (options.colour === 'density') updateSurface().then(redraw);
-    else redraw();
+    redraw();  // labels
   }
 
   new ResizeObserver(() => viewer.resize()).observe(stage);
