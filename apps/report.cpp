@@ -66,7 +66,7 @@ void add_report(CLI::App& program) {
                      "Directory to write; default: RUN_report beside the run");
   command
       .add_option("--top", options->report.structures,
-                  "Best poses written as structure files, and drawn with --png")
+                  "Best poses written as structure files")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
@@ -76,15 +76,18 @@ void add_report(CLI::App& program) {
           "RMSD below which two poses are one cluster; 0 = the run's own clusters; default:\n"
           "those if one holds several poses, else a tenth of the moving body's diameter")
       ->check(CLI::NonNegativeNumber);
-  command.add_flag("--png", options->report.pictures,
-                   "PNG files too: the plots and the best poses, for papers");
+  command
+      .add_option("--png", options->report.pictures,
+                  "So many best poses as PNG, ray traced, and the plots: for papers")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--fixed", options->places.fixed.path, "Where the fixed body's file is now");
   command.add_option("--moving", options->places.moving.path,
                      "Where the moving body's file is now");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
   add_common_options(command, options->common,
                      "  mortise report run.h5 -o report/\n"
-                     "  mortise report run.h5 --top 3 --png\n"
+                     "  mortise report run.h5 --top 3 --png 3\n"
                      "The page is index.html in that directory; it opens in any browser, without a\n"
                      "network. Inputs that have moved are looked for, by SHA-256, beside the run and\n"
                      "in the present directory.");

@@ -82,6 +82,8 @@ Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptio
   check_run(run, "report");
   if (options.structures < 0)
     throw InputError("report: structures must be >= 0, got " + std::to_string(options.structures));
+  if (options.pictures < 0)
+    throw InputError("report: pictures must be >= 0, got " + std::to_string(options.pictures));
   if (options.cluster_radius && !(*options.cluster_radius >= 0.0))
     throw InputError("report: cluster_radius must be >= 0, got " +
                      std::to_string(*options.cluster_radius));

@@ -11,6 +11,7 @@
 #include "mortise/core/version.hpp"
 #include "mortise/molecules/write_molecule.hpp"
 #include "mortise/report/page.hpp"
+#include "mortise/report/pictures.hpp"
 #include "mortise/report/viewer_scripts.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/export.hpp"
@@ -79,6 +80,7 @@ class Writer {
     write_file_atomically((directory_ / name).string(), text);
     result_.files.push_back(name);
   }
+  void note(const std::string& name) { result_.files.push_back(name); }
   void warn(const std::string& text) { result_.warnings.push_back(text); }
   [[nodiscard]] const fs::path& directory() const { return directory_; }
   [[nodiscard]] ReportFiles take() { return std::move(result_); }
@@ -87,6 +89,31 @@ class Writer {
   fs::path directory_;
   ReportFiles result_;
 };
+
+// Pictures are extras: where a program for them is missing, the report says so and goes on.
+void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
+                    const ReportOptions& options) {
+  const std::size_t count =
+      std::min(static_cast<std::size_t>(options.pictures), run.poses.poses.size());
+  if (count == 0) return;
+  make_directory(writer.directory() / "poses");
+  try {
+    for (const std::string& name : draw_plots(run, writer.directory().string())) writer.note(name);
+  } catch (const InputError& e) {
+    writer.warn(std::string("no plots: ") + e.what());
+  }
+  try {
+    const PictureOptions picture = {.threads = options.threads};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string name = "poses/" + pose_file_name(i + 1, "png");
+      render_scene(povray_scene(bodies, run.poses.poses[i].moving_in_fixed, picture),
+                   (writer.directory() / name).string(), picture);
+      writer.note(name);
+    }
+  } catch (const InputError& e) {
+    writer.warn(std::string("no pictures of poses: ") + e.what());
+  }
+}
 
 void write_structures(Writer& writer, const Run& run, const ReportBodies& bodies, int structures) {
   const std::size_t count =
@@ -138,6 +165,7 @@ ReportFiles write_report(const Run& run, const ReportBodies& bodies, const std::
   writer.write("poses.csv", csv_of(shown));
   writer.write("poses.json", json_of(shown));
   write_structures(writer, shown, bodies, options.structures);
+  write_pictures(writer, shown, bodies, options);
   return writer.take();
 }
 

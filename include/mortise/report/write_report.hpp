@@ -18,7 +18,7 @@ struct ReportOptions {
   /// clusters. Absent: the run's own if one holds several poses, else a tenth of the moving body's
   /// diameter.
   std::optional<double> cluster_radius = {};
-  bool pictures = false;  ///< PNG files too: plots.png and the best poses; see pictures.hpp
+  int pictures = 0;       ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
   int threads = 0;        ///< 0 = all cores; never changes the result
 };
 

@@ -4,7 +4,7 @@ import { BODY } from './colors.js';
 import { moved } from './geometry.js';
 
 const CREASE = Math.cos((30 * Math.PI) / 180);  // edges that bend more are drawn
-const LIFT = 2e-3;  // of the part's radius
+const LIFT = 6e-3;  // of the part's radius
 const EDGES_PER_SHAPE = 400;  // the viewer goes through all lines of a shape for each line added
 
 /** Corners with normals of their own where the surface bends, and the lines along such edges. */

@@ -8,7 +8,7 @@ import { showMesh } from './mesh.js';
 export const INTERFACE_CUTOFF = 5;  // angstrom between heavy atoms
 
 /** Turns by \u221235 degrees about z, then by \u221262 about x. */
-const OBLIQUE = [-0.4912, 0.1549, -0.2578, 0.8175];
+const OBLIQUE = [-0.4912, -0.1549, -0.2578, 0.8175];
 
 const isPolymer = (atom) => !atom.hetflag;
 const residueKey = (atom) => `${atom.chain}\u0000${atom.resi}\u0000${atom.icode ?? ''}\u0000${atom.resn}`;
