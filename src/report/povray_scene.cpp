@@ -148,7 +148,7 @@ std::string camera_text(const Eigen::Matrix3d& view, const Eigen::Matrix3Xd& poi
   };
   const double width = 0.5 * distance;
   light({-0.9, 1.3, 1.4}, ", srgb 0.95 area_light " + vector_text(width * right) + "," +
-                              vector_text(width * up) + ",3,3 adaptive 0 jitter circular orient");
+                              vector_text(width * up) + ",4,4 adaptive 1 circular orient");
   light({1.2, 0.3, 1.6}, ", srgb 0.5 shadowless");
   light({0.0, -1.5, 0.6}, ", srgb 0.3 shadowless");
   return text;

@@ -22,5 +22,5 @@ export const hex = ([r, g, b]) => (r << 16) | (g << 8) | b;
 
 export const rampCss = (dark) => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map((s) => css(ramp(s, dark))).join(', ')})`;
 
-/** The bodies in the 3D view; the same in both themes, so that pictures match. */
-export const BODY = { fixed: 0x7f9fc4, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12 };
+/** The bodies in the 3D view; the same in both themes, so that pictures match. Meshes are lit less than cartoons. */
+export const BODY = { fixed: 0x7f9fc4, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12, fixedPart: 0x9dbbe0, movingPart: 0xf29a4a };

@@ -94,12 +94,12 @@ export function showMesh(viewer, fixedBody, movingBody) {
   return {
     draw(m, { opacity, colours }) {
       for (const shape of shapes) viewer.removeShape(shape);
-      shapes = m ? add(moving, m, BODY.moving, 0x6b3408, 1, null) : [];
+      shapes = m ? add(moving, m, BODY.movingPart, 0x301603, 1, null) : [];
       const state = `${opacity} ${colours ? colours.join() : ''}`;
       if (state === drawnFixed) return;
       drawnFixed = state;
       for (const shape of fixedShapes) viewer.removeShape(shape);
-      fixedShapes = add(fixed, still, BODY.fixed, 0x2c4566, opacity, colours);
+      fixedShapes = add(fixed, still, BODY.fixedPart, 0x15263c, opacity, colours);
     },
     zoom() {
       viewer.zoomTo();

@@ -205,6 +205,7 @@ export async function makeViewer(run) {
     viewer.setView([view[0], view[1], view[2], view[3], ...q]);
     if (isMesh) meshes.zoom();
     else viewer.zoomTo();
+    if (!isMesh) viewer.zoom(0.9);
     viewer.render();
   }
 
@@ -238,7 +239,7 @@ export async function makeViewer(run) {
     };
     const wide = (label, control) => element('label', { class: 'field' }, element('span', {}, label), control);
     byId('controls').replaceChildren(
-      isMesh ? '' : wide('Receptor', choice('Receptor shown as', [['surface', 'surface'], ['cartoon', 'cartoon']], options.fixedStyle, change('fixedStyle', surfaceThen))),
+      isMesh ? '' : wide('Receptor', choice('Receptor shown as', [['surface', 'surface'], ['cartoon', 'cartoon']], options.fixedStyle, change('fixedStyle', surfaceThen), { id: 'fixed-style' })),
       hasMap ? wide('Colour', choice('Colour of the fixed body', [['plain', 'by body'], ['density', 'where poses sit']], options.colour, change('colour', colour), { id: 'colour' })) : '',
       slider('See-through', options.seeThrough, (v) => `${v}%`, change('seeThrough', isMesh ? redraw : surfaceThen), { max: 90, id: 'see-through' }),
       slider('Exploded', options.exploded, (v) => `${v}%`, change('exploded', redraw), { id: 'exploded' }),
