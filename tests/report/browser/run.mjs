@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opens the sample reports in Debian's chromium and uses them: run.mjs PAGES_DIR MANY_DIR SCREENSHOTS_DIR WORK_DIR.
+//
+// Exits with 77, which CTest counts as skipped, where chromium is not installed or npm cannot get playwright-core.
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { checks } from './checks.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [pages, many, screenshots, work] = process.argv.slice(2).map((path) => resolve(path));
+
+function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+
+function playwright() {
+  const folder = join(work, 'browser-packages');
+  const { version } = JSON.parse(readFileSync(join(here, 'package-lock.json'), 'utf8')).packages['node_modules/playwright-core'];
+  const installed = join(folder, version);
+  if (!existsSync(installed)) {
+    const fresh = `${installed}.${process.pid}`;
+    mkdirSync(fresh, { recursive: true });
+    for (const name of ['package.json', 'package-lock.json', '.npmrc']) cpSync(join(here, name), join(fresh, name));
+    try {
+      execFileSync('npm', ['ci', '--ignore-scripts', '--prefer-offline', '--loglevel=error'], { cwd: fresh, stdio: 'inherit' });
+    } catch (error) {
+      rmSync(fresh, { recursive: true, force: true });
+      skip(`npm did not get playwright-core (${error.message})`);
+    }
+    renameSync(fresh, installed);
+  }
+  return createRequire(join(installed, 'package.json'))('playwright-core');
+}
+
+const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((path) => existsSync(path));
+if (!executablePath) skip('there is no /usr/bin/chromium (Debian package chromium)');
+const { chromium } = playwright();
+mkdirSync(screenshots, { recursive: true });
+const browser = await chromium.launch({
+  executablePath,
+  args: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--no-sandbox'],
+});
+
+/** A report in a page of its own; everything it should not do is collected in `faults`. */
+async function open(name, { scheme = 'light', width = 1440, height = 900 } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: 'reduce' });
+  const page = await context.newPage();
+  const faults = [];
+  page.on('console', (message) => faults.push(`console ${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    if (!/^(file|blob|data):/.test(request.url())) faults.push(`request: ${request.url()}`);
+  });
+  const start = Date.now();
+  await page.goto(`file://${join(name === 'many' ? many : pages, name, 'index.html')}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60_000 });
+  const opened = Date.now() - start;
+  await page.waitForFunction(() => document.documentElement.dataset.ready === 'all', null, { timeout: 60_000 });
+  const drawn = Date.now() - start;
+  return {
+    page, faults, opened, drawn,
+    surface: () => page.waitForFunction(() => !globalThis.mortise.viewer || globalThis.mortise.viewer.surfaceReady(), null, { timeout: 120_000 }),
+    picture: (file, options = {}) => page.screenshot({ path: join(screenshots, file), ...options }),
+    close: () => context.close(),
+  };
+}
+
+let failed = 0;
+for (const [name, check] of Object.entries(checks)) {
+  const start = Date.now();
+  try {
+    const said = await check(open);
+    console.log(`ok      ${name} (${Date.now() - start} ms)${said ? `: ${said}` : ''}`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED  ${name}: ${error.stack}`);
+  }
+}
+await browser.close();
+console.log(`${Object.keys(checks).length - failed} of ${Object.keys(checks).length} checks passed; screenshots are in ${screenshots}`);
+process.exit(failed ? 1 : 0);
