@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Describes the interfaces of known complexes, one CSV line each, and times one pose.
 //
-//   interface_bench PAIRS.csv > interfaces.csv      PAIRS.csv: name,...,reference_fixed,reference_moving
+//   interface_bench PAIRS.csv > interfaces.csv      PAIRS.csv:
+//   name,...,reference_fixed,reference_moving
 #include <chrono>
 #include <cstdio>
 #include <exception>

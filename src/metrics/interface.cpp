@@ -63,7 +63,7 @@ Body make_body(const Molecule& molecule, const char* which, const InterfaceOptio
   if (options.complementarity) {
     ComplementarityOptions sc = options.sc;
     sc.threads = options.threads;
-    body.surface.emplace(body.positions, radii, sc);
+    body.surface.emplace(body.positions, complementarity_radii(body.heavy), sc);
   }
   return body;
 }

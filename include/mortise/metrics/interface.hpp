@@ -56,7 +56,8 @@ struct InterfaceDescription {
 /// Two rigid molecules; describes any pose in milliseconds, as what belongs to one body alone (its
 /// surfaces, its polar atoms) is made once and moved.
 ///
-/// Only heavy atoms count, hetero groups included, with their atom_radii().
+/// Only heavy atoms count, hetero groups included, with their atom_radii() (Sc:
+/// complementarity_radii()).
 ///  - clash: nearer than 3 A, as CAPRI counts them (Mendez, Leplae, De Maria, Wodak, Proteins 52
 ///    (2003) 51-67), but for pairs that are hydrogen bonds.
 ///  - hydrogen bond: donor and acceptor at most 3.5 A apart (E. N. Baker, R. E. Hubbard, Prog.
