@@ -65,7 +65,7 @@ std::vector<std::size_t> reduced(const NodeField& field, const std::vector<GridB
 
 Eigen::Vector4d in_solid_frame(const NodeField& field, const GridBall& ball) {
   Eigen::Vector4d knot;
-  knot << field.position(ball.center), field.spacing * ball.radius;
+  knot << field.origin + field.spacing * ball.center, field.spacing * ball.radius;
   return knot;
 }
 
@@ -73,7 +73,17 @@ Eigen::Vector4d in_solid_frame(const NodeField& field, const GridBall& ball) {
 
 Decomposition decompose(const Solid& solid, const DecomposeOptions& options) {
   check(options);
-  const NodeField field = parts::node_field(solid, options.grid, options.threads);
+  return decompose(distance_grid(solid, parts::cell_centers(solid.bounds(), options.grid),
+                                 {.threads = options.threads}),
+                   options);
+}
+
+Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& options) {
+  check(options);
+  if (grid.values.size() != static_cast<std::size_t>(grid.count()) || grid.values.empty())
+    throw InputError("decompose: " + std::to_string(grid.count()) + " distances expected, got " +
+                     std::to_string(grid.values.size()));
+  const NodeField field = parts::node_field(grid);
   Decomposition result;
   result.spacing = field.spacing;
   result.epsilon = 0.5 * std::numbers::sqrt3 * field.spacing;
@@ -83,8 +93,7 @@ Decomposition decompose(const Solid& solid, const DecomposeOptions& options) {
   result.volume = static_cast<double>(result.inside) * std::pow(field.spacing, 3);
   if (result.inside == 0)
     throw InputError("decompose: none of the grid's " + std::to_string(result.nodes) +
-                     " nodes lies inside the solid; take a finer grid than " +
-                     std::to_string(options.grid));
+                     " nodes lies inside the solid; take a finer grid");
   const std::vector<GridBall> inner = inner_balls(field, options);
   const double growth = options.expansion * 0.5 * std::numbers::sqrt3;  // in spacings
   std::vector<GridBall> knots;

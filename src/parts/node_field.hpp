@@ -8,27 +8,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "mortise/parts/solid.hpp"
+#include "mortise/parts/distance_grid.hpp"
 
 namespace mortise::parts {
 
-// Nodes are the centres of cubic cells that fill a box; the last index runs fastest.
-struct NodeField {
-  Eigen::Vector3d origin;    // node (0, 0, 0)
-  double spacing = 0.0;      // between nodes
-  Eigen::Array3i size;       // nodes along x, y, z
+// Nodes and how deep in the solid they lie.
+struct NodeField : GridNodes {
   std::vector<float> depth;  // distance to the boundary in spacings, positive inside
 
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(depth.size()); }
-  [[nodiscard]] std::int64_t index(int x, int y, int z) const {
-    return (static_cast<std::int64_t>(x) * size.y() + y) * size.z() + z;
-  }
-  [[nodiscard]] Eigen::Array3i node(std::int64_t index) const {
+  [[nodiscard]] Eigen::Array3i node_at(std::int64_t index) const {
     const auto row = static_cast<int>(index / size.z());
     return {row / size.y(), row % size.y(), static_cast<int>(index % size.z())};
-  }
-  [[nodiscard]] Eigen::Vector3d position(const Eigen::Vector3d& node) const {
-    return origin + spacing * node;
   }
 };
 
@@ -38,8 +29,11 @@ struct GridBall {
   double radius = 0.0;
 };
 
-// The nodes of the box of the solid, `grid` along its longest side.
-NodeField node_field(const Solid& solid, int grid, int threads);
+// The centres of the cubic cells that fill a box, `grid` along its longest side.
+GridNodes cell_centers(const Eigen::AlignedBox3d& box, int grid);
+
+// @throws InputError if a distance is not finite
+NodeField node_field(const DistanceGrid& grid);
 
 // Calls row(first, last) with the indices of the nodes of each row along z that lie in the ball.
 template <typename Row>

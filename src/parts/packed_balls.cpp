@@ -27,11 +27,11 @@ std::vector<GridBall> packed_balls(const NodeField& field) {
       queue.emplace(room[i], i);
       continue;
     }
-    const Eigen::Vector3d center = field.node(i).cast<double>();
+    const Eigen::Vector3d center = field.node_at(i).cast<double>();
     balls.push_back({center, radius});
     // No room is larger than this radius: a node beyond twice the radius keeps its own.
     for_rows_in(field, {center, 2.0 * radius}, [&](std::int64_t first, std::int64_t last) {
-      const Eigen::Vector3d start = field.node(first).cast<double>().matrix() - center;
+      const Eigen::Vector3d start = field.node_at(first).cast<double>().matrix() - center;
       double along = start.z();
       for (std::int64_t k = first; k <= last; ++k, along += 1.0) {
         if (room[k] <= 0.0F) continue;

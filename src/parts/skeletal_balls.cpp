@@ -31,7 +31,7 @@ std::vector<std::int64_t> medial_order(const NodeField& field) {
   std::vector<Entry> entries;
   for (std::int64_t i = 0; i < field.count(); ++i)
     if (field.depth[i] > 0.0F)
-      entries.push_back({inward_flux(field, field.node(i)), field.depth[i], i});
+      entries.push_back({inward_flux(field, field.node_at(i)), field.depth[i], i});
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     if (a.flux != b.flux) return a.flux > b.flux;
     if (a.depth != b.depth) return a.depth > b.depth;
@@ -55,13 +55,13 @@ std::vector<GridBall> skeletal_balls(const NodeField& field, double protrusion) 
   for (const std::int64_t i : order) {
     if (left == 0) break;
     if ((state[i] & kPopped) != 0) continue;
-    const Eigen::Vector3d center = field.node(i).cast<double>();
+    const Eigen::Vector3d center = field.node_at(i).cast<double>();
     const float radius = field.depth[i];
     balls.push_back({center, radius});
     // A node x' is popped if |x - x'| - (r - r') <= mu r': the paper's |r - r'| would also pop
     // nodes outside the ball, about which larger balls lie.
     for_rows_in(field, balls.back(), [&](std::int64_t first, std::int64_t last) {
-      const Eigen::Vector3d start = field.node(first).cast<double>().matrix() - center;
+      const Eigen::Vector3d start = field.node_at(first).cast<double>().matrix() - center;
       const auto across_sq = static_cast<float>(start.head<2>().squaredNorm());
       auto along = static_cast<float>(start.z());
       for (std::int64_t k = first; k <= last; ++k, along += 1.0F) {

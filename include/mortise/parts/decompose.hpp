@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "mortise/core/knots.hpp"
+#include "mortise/parts/distance_grid.hpp"
 #include "mortise/parts/solid.hpp"
 
 namespace mortise {
@@ -50,8 +51,13 @@ struct Decomposition {
 /// [SD, Prop. 3]: the sets are no further apart than half the diagonal of a grid cell. Derivation
 /// and what is changed against the paper in docs/math.md.
 /// @throws InputError if an option is out of range or no node lies inside the solid
-/// Time O(m) distances and O(sum of the inner balls' volumes / spacing^3), memory about 16 bytes a
+/// Time m distances and O(sum of the inner balls' volumes / spacing^3), memory about 16 bytes a
 /// node, m = nodes.
 [[nodiscard]] Decomposition decompose(const Solid& solid, const DecomposeOptions& options = {});
+
+/// The same from exact distances at the nodes of a grid, whose cells hold the solid;
+/// options.grid is not used.
+[[nodiscard]] Decomposition decompose(const DistanceGrid& grid,
+                                      const DecomposeOptions& options = {});
 
 }  // namespace mortise
