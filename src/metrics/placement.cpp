@@ -11,28 +11,10 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/core/pose_distance.hpp"
+#include "mortise/parts/diameter.hpp"
 
 namespace mortise {
 namespace {
-
-// Indices of the vertices that are outermost along directions spread evenly over the sphere.
-std::vector<Eigen::Index> outermost(const Eigen::Matrix3Xd& vertices, int directions) {
-  const Eigen::Vector3d centre =
-      0.5 * (vertices.rowwise().minCoeff() + vertices.rowwise().maxCoeff());
-  const Eigen::Matrix3Xd centred = vertices.colwise() - centre;
-  std::vector<Eigen::Index> found;
-  for (int i = 0; i < directions; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / directions;
-    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(1.0 - z * z);
-    Eigen::Index at = 0;
-    (Eigen::RowVector3d(r * std::cos(angle), r * std::sin(angle), z) * centred).maxCoeff(&at);
-    found.push_back(at);
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
 
 Eigen::Matrix3Xd columns(const Eigen::Matrix3Xd& points, const std::vector<Eigen::Index>& which) {
   Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(which.size()));
@@ -108,7 +90,7 @@ struct Placement::Impl {
   explicit Impl(const TriangleMesh& mesh)
       : distance(surface_distance(mesh)),
         vertices(mesh.vertices),
-        hull(columns(mesh.vertices, outermost(mesh.vertices, 600))),
+        hull(columns(mesh.vertices, outermost_vertices(mesh.vertices))),
         diameter(diameter_of(mesh.vertices)) {}
 
   PoseDistance distance;
@@ -263,16 +245,6 @@ struct Placement::Impl {
     return largest_distance(vertices, placed(start.fold, at), pose);
   }
 };
-
-double diameter_of(const Eigen::Matrix3Xd& vertices) {
-  if (vertices.cols() == 0) throw InputError("diameter: expected at least one vertex, got none");
-  const Eigen::Matrix3Xd ends = columns(vertices, outermost(vertices, 600));
-  double largest_sq = 0.0;
-  for (Eigen::Index i = 0; i < ends.cols(); ++i)
-    largest_sq =
-        std::max(largest_sq, (ends.colwise() - ends.col(i)).colwise().squaredNorm().maxCoeff());
-  return std::sqrt(largest_sq);
-}
 
 Placement::Placement(const TriangleMesh& moving, const TrueMate& truth) {
   if (moving.size() == 0) throw InputError("placement: expected at least one triangle, got none");

@@ -11,10 +11,6 @@
 
 namespace mortise {
 
-/// Largest distance between two vertices of a mesh, length unit; short of it by less than 0.5%.
-/// @throws InputError if there is no vertex
-[[nodiscard]] double diameter_of(const Eigen::Matrix3Xd& vertices);
-
 /// Distances between corresponding points of the moving part's surface at a pose and at the true
 /// placement nearest to it, relative to the part's diameter.
 struct PlacementError {
