@@ -47,16 +47,20 @@ nlohmann::ordered_json to_json(const QualitySummary& summary) {
           {"best_dockq", summary.best.dockq}};
 }
 
+void set_metric(Run& run, MetricColumn column) {
+  const auto old = std::find_if(run.metrics.begin(), run.metrics.end(),
+                                [&](const MetricColumn& c) { return c.name == column.name; });
+  if (old != run.metrics.end())
+    *old = std::move(column);
+  else
+    run.metrics.push_back(std::move(column));
+}
+
 void set_metrics(Run& run, const std::vector<ComplexMetrics>& metrics) {
   const auto set = [&](const char* name, auto value) {
     MetricColumn column{name, {}};
     for (const ComplexMetrics& m : metrics) column.values.push_back(value(m));
-    const auto old = std::find_if(run.metrics.begin(), run.metrics.end(),
-                                  [&](const MetricColumn& c) { return c.name == name; });
-    if (old != run.metrics.end())
-      *old = std::move(column);
-    else
-      run.metrics.push_back(std::move(column));
+    set_metric(run, std::move(column));
   };
   set("interface_rmsd", [](const ComplexMetrics& m) { return m.interface_rmsd; });
   set("ligand_rmsd", [](const ComplexMetrics& m) { return m.ligand_rmsd; });

@@ -28,6 +28,9 @@ struct QualitySummary {
 /// The summary under the keys that `evaluate --json` prints.
 [[nodiscard]] nlohmann::ordered_json to_json(const QualitySummary& summary);
 
+/// Puts a column into the run, in place of an earlier one of its name.
+void set_metric(Run& run, MetricColumn column);
+
 /// Puts the metrics into the run as columns, in place of earlier ones of their names.
 void set_metrics(Run& run, const std::vector<ComplexMetrics>& metrics);
 

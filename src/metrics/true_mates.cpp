@@ -78,10 +78,11 @@ Symmetry parse_symmetry(const Json& json) {
   return s;
 }
 
-TrueMate parse_mate(const Json& json) {
+// A file of one pair alone need not name its parts.
+TrueMate parse_mate(const Json& json, bool alone) {
   TrueMate mate;
-  mate.fixed = json.at("fixed").get<std::string>();
-  mate.moving = json.at("moving").get<std::string>();
+  mate.fixed = alone ? json.value("fixed", "") : json.at("fixed").get<std::string>();
+  mate.moving = alone ? json.value("moving", "") : json.at("moving").get<std::string>();
   mate.name = json.value("name", mate.fixed + " " + mate.moving);
   mate.clearance = json.value("clearance", 0.0);
   const Json& pose = json.at("pose");
@@ -141,9 +142,13 @@ std::vector<TrueMate> read_true_mates(const std::string& path) {
   std::string where;
   try {
     const Json json = Json::parse(file);
+    if (json.contains("pose")) {
+      mates.push_back(parse_mate(json, true));
+      return mates;
+    }
     for (const Json& pair : json.at("pairs")) {
       where = "pair " + std::to_string(mates.size() + 1) + ": ";
-      mates.push_back(parse_mate(pair));
+      mates.push_back(parse_mate(pair, false));
     }
   } catch (const Json::exception& e) {
     throw FileError(path, where + e.what());
@@ -159,7 +164,9 @@ TrueMate find_true_mate(const std::vector<TrueMate>& mates, const std::string& f
   std::string names;
   for (const TrueMate& mate : mates) {
     names += (names.empty() ? "" : ", ") + mate.name;
-    if (name.empty() ? mate.fixed == fixed && mate.moving == moving : mate.name == name)
+    const bool unnamed = mate.fixed.empty() && mate.moving.empty() && mates.size() == 1;
+    if (name.empty() ? unnamed || (mate.fixed == fixed && mate.moving == moving)
+                     : mate.name == name)
       found.push_back(&mate);
   }
   if (found.size() == 1) return *found.front();

@@ -11,6 +11,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/parts/diameter.hpp"
+#include "mortise/parts/sample_surface.hpp"
 #include "mortise/search/cluster.hpp"
 #include "search/mate_contact.hpp"
 
@@ -154,7 +155,7 @@ struct Mating::Impl {
     std::vector<RigidMotion> motions;
     motions.reserve(order.size());
     for (const std::size_t i : order) motions.push_back(all[i].motion);
-    const Clusters clusters = cluster_poses(motions, pair->moving().samples.points.cast<double>(),
+    const Clusters clusters = cluster_poses(motions, pair->moving().points.cast<double>(),
                                             {.radius = radius * unit, .max_clusters = keep});
     std::vector<Placed> kept;
     for (const std::size_t f : clusters.founders) kept.push_back(all[order[f]]);
@@ -180,16 +181,13 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   moving_samples = sample_surface(moving.mesh, count(moving_samples.area));
   const double margin =
       std::max((options.skin + 2.0 * options.spacing) * unit, 16.0 * options.tolerance * unit);
-  const auto body = [&](const MatePart& part, SurfaceSamples samples) {
-    const Eigen::Vector3d centre = part.solid->bounds().center();
-    const double reach =
-        (samples.points.cast<double>().colwise() - centre).colwise().norm().maxCoeff();
-    return ContactBody{std::move(samples),
+  const auto body = [&](const MatePart& part, const SurfaceSamples& samples) {
+    return ContactBody(samples,
                        DistanceField(*part.solid, options.detail * unit, margin, options.threads),
-                       centre, reach};
+                       part.solid->bounds().center());
   };
-  impl_->pair = std::make_unique<ContactPair>(body(fixed, std::move(fixed_samples)),
-                                              body(moving, std::move(moving_samples)));
+  impl_->pair =
+      std::make_unique<ContactPair>(body(fixed, fixed_samples), body(moving, moving_samples));
   const SampledSkinOptions skin{
       .spacing = options.spacing * unit, .offset = options.skin * unit, .penalty = options.penalty};
   impl_->fixed_knots = skin_knots(impl_->pair->fixed().field, skin);

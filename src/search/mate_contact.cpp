@@ -12,9 +12,10 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Eigen::Index count_of(const SurfaceSamples& samples, double share) {
-  return std::clamp<Eigen::Index>(
-      static_cast<Eigen::Index>(share * static_cast<double>(samples.size())), 1, samples.size());
+Eigen::Index count_of(const ContactBody& body, double share) {
+  const Eigen::Index all = body.points.cols();
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(all)), 1,
+                                  all);
 }
 
 // The twist about `centre`, then the motion.
@@ -29,31 +30,40 @@ RigidMotion twisted(const RigidMotion& motion, const Vector6& twist, const Eigen
 
 }  // namespace
 
+ContactBody::ContactBody(const SurfaceSamples& samples, DistanceField distance,
+                         const Eigen::Vector3d& middle)
+    : points(samples.points.cast<float>()),
+      normals(samples.normals.cast<float>()),
+      area(samples.area),
+      field(std::move(distance)),
+      centre(middle),
+      reach((samples.points.colwise() - middle).colwise().norm().maxCoeff()) {}
+
 template <class Use>
 void ContactPair::for_each(const RigidMotion& motion, double share, const Use& use) const {
   const Eigen::Matrix3f R = motion.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = motion.translation.cast<float>();
   Eigen::Vector3f gradient;
-  const Eigen::Index moving_count = count_of(moving_.samples, share);
-  const double moving_area = moving_.samples.area / static_cast<double>(moving_count);
+  const Eigen::Index moving_count = count_of(moving_, share);
+  const double moving_area = moving_.area / static_cast<double>(moving_count);
   for (Eigen::Index i = 0; i < moving_count; ++i) {
-    const Eigen::Vector3f x = R * moving_.samples.points.col(i) + t;
+    const Eigen::Vector3f x = R * moving_.points.col(i) + t;
     const float d = fixed_.field.at(x, gradient);
     if (d < DistanceField::kFar)
-      use(1.0F, x, Eigen::Vector3f(R * moving_.samples.normals.col(i)), d, gradient, moving_area);
+      use(1.0F, x, Eigen::Vector3f(R * moving_.normals.col(i)), d, gradient, moving_area);
   }
   const Eigen::Matrix3f back = R.transpose();
   const Eigen::Vector3f centre = (motion * moving_.centre).cast<float>();
   const auto reach_sq = static_cast<float>(1.21 * moving_.reach * moving_.reach);
-  const Eigen::Index fixed_count = count_of(fixed_.samples, share);
-  const double fixed_area = fixed_.samples.area / static_cast<double>(fixed_count);
+  const Eigen::Index fixed_count = count_of(fixed_, share);
+  const double fixed_area = fixed_.area / static_cast<double>(fixed_count);
   for (Eigen::Index i = 0; i < fixed_count; ++i) {
-    const Eigen::Vector3f x = fixed_.samples.points.col(i);
+    const Eigen::Vector3f x = fixed_.points.col(i);
     if ((x - centre).squaredNorm() > reach_sq) continue;
     const float d = moving_.field.at(back * (x - t), gradient);
     if (d < DistanceField::kFar)
-      use(-1.0F, x, Eigen::Vector3f(fixed_.samples.normals.col(i)), d,
-          Eigen::Vector3f(R * gradient), fixed_area);
+      use(-1.0F, x, Eigen::Vector3f(fixed_.normals.col(i)), d, Eigen::Vector3f(R * gradient),
+          fixed_area);
   }
 }
 

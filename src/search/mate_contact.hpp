@@ -4,16 +4,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <algorithm>
 
 #include "mortise/core/rigid_motion.hpp"
-#include "search/mate_surface.hpp"
+#include "mortise/parts/sample_surface.hpp"
+#include "search/distance_field.hpp"
 
 namespace mortise {
 
 /// One part as its placements are judged by.
 struct ContactBody {
-  SurfaceSamples samples;
+  ContactBody(const SurfaceSamples& samples, DistanceField distance, const Eigen::Vector3d& middle);
+
+  Eigen::Matrix3Xf points;   ///< of the surface, input frame
+  Eigen::Matrix3Xf normals;  ///< outward
+  double area;               ///< of the whole surface
   DistanceField field;
   Eigen::Vector3d centre;  ///< of the bounding box
   double reach;            ///< largest distance of a sample from the centre
@@ -65,9 +70,7 @@ class ContactPair {
   [[nodiscard]] const ContactBody& fixed() const { return fixed_; }
   [[nodiscard]] const ContactBody& moving() const { return moving_; }
   /// The smaller of the two surfaces' areas.
-  [[nodiscard]] double smaller_area() const {
-    return std::min(fixed_.samples.area, moving_.samples.area);
-  }
+  [[nodiscard]] double smaller_area() const { return std::min(fixed_.area, moving_.area); }
 
  private:
   /// Calls use(side, x, n, d, g) for the samples that lie within the other body's grid: x, the

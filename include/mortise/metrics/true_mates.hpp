@@ -52,10 +52,12 @@ struct TrueMate {
   std::vector<Symmetry> symmetries;
 };
 
-/// Reads a truth file (docs/formats.md). @throws FileError naming the pair and the field at fault
+/// Reads a truth file, of many pairs or of one alone (docs/formats.md). @throws FileError naming
+/// the pair and the field at fault
 [[nodiscard]] std::vector<TrueMate> read_true_mates(const std::string& path);
 
-/// The mate of these two stems, or of the one name if `name` is given.
+/// The mate of these two stems, or of the one name if `name` is given, or the file's only one if it
+/// names no parts.
 /// @throws InputError listing the pairs if there is none, or several and no name
 [[nodiscard]] TrueMate find_true_mate(const std::vector<TrueMate>& mates, const std::string& fixed,
                                       const std::string& moving, const std::string& name = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Points spread over a part's surface, and its distance on a grid: what a placement is judged by.
+/// A part's distance on a grid: what a placement is judged by.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,24 +8,8 @@
 #include <vector>
 
 #include "mortise/parts/solid.hpp"
-#include "mortise/parts/triangle_mesh.hpp"
 
 namespace mortise {
-
-/// Points on a surface, each standing for the same area. Any first n of them cover the surface
-/// evenly too, each for N / n times the area.
-struct SurfaceSamples {
-  Eigen::Matrix3Xf points;   ///< 3 x N, input frame
-  Eigen::Matrix3Xf normals;  ///< 3 x N, outward, unit length
-  double area = 0.0;         ///< of the whole surface
-
-  [[nodiscard]] Eigen::Index size() const noexcept { return points.cols(); }
-};
-
-/// Quasi-random points: along the triangles' summed areas by the golden ratio, within a triangle by
-/// the plastic number's sequence, so that prefixes are even. Deterministic.
-/// @throws InputError if the mesh has no area
-[[nodiscard]] SurfaceSamples sample_surface(const TriangleMesh& mesh, Eigen::Index count);
 
 /// A solid's signed distance on a grid around it, read between the nodes by trilinear
 /// interpolation.
