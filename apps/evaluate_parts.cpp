@@ -42,7 +42,8 @@ void evaluate_parts(const std::string& run_path, const std::string& truth, const
   const TrueMate mate =
       find_true_mate(read_true_mates(truth), stem_of(run.fixed), stem_of(run.moving), pair);
   const Placement placement(
-      read_part(locate_input(run.moving, run.provenance, "moving", moving), {.allow_open = true})
+      read_part(locate_input(run.moving, run.provenance, "moving", moving),
+                {.repair = {.allow_open = true, .find_self_intersections = false}})
           .mesh,
       mate);
   const std::size_t count = run.poses.poses.size();

@@ -19,8 +19,8 @@ namespace {
 MateBody read_body(const BodyRecord& record, const std::string& path,
                    const MateSettings& settings) {
   ReadPartOptions options;
-  if (settings.deviation > 0.0) options.deviation = settings.deviation;
-  options.allow_open = settings.allow_open;
+  options.absolute_deviation = settings.deviation;
+  options.repair.allow_open = settings.allow_open;
   ReadPartResult read = read_part(path, options);
   MateBody body{record, {}, std::move(read.decisions)};
   body.part.solid = std::make_shared<MeshSolid>(read.mesh);
