@@ -110,9 +110,9 @@ ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const Opti
   const DockBody moving = read_dock_body(pair.moving, settings.read);
   CommonOptions common = options.common;
   common.quiet = common.quiet || options.jobs > 1;
-  DockWatch watch;
+  SearchWatch watch;
   watch.progress = make_progress(progress_label, common);
-  DockResult result =
+  SearchResult result =
       dock(fixed, moving, settings,
            make_provenance(command_line(), settings_json(settings).dump(), *settings.random_start),
            watch);

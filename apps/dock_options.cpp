@@ -10,12 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Value>
-struct Field {
-  const char* key;   // in to_json(DockOptions)
-  const char* flag;  // on the command line
-  const char* help;
-  Value& (*of)(DockOptions&);
-};
+using Field = OptionField<DockOptions, Value>;
 
 const Field<double> kReals[] = {
     {"spacing", "--spacing", "Grid step, angstrom",
@@ -55,19 +50,7 @@ const Field<std::string> kTexts[] = {
 
 template <class Value>
 void add_field(CLI::App& command, DockArguments& arguments, const Field<Value>& field) {
-  DockOptions defaults = dock_preset("default");
-  const Json standard = field.of(defaults);
-  const std::string shown = standard == "" ? "none" : standard.dump();
-  auto of = field.of;
-  command
-      .add_option_function<Value>(
-          field.flag,
-          [&arguments, of](const Value& value) {
-            arguments.overrides.emplace_back(
-                [of, value](DockSettings& s) { of(s.options) = value; });
-          },
-          field.help)
-      ->default_str(shown);
+  add_option_field(command, arguments, dock_preset("default"), field);
 }
 
 }  // namespace
@@ -132,19 +115,6 @@ DockSettings parse_settings(const std::string& text) {
   }
   expect_same_settings(json, settings_json(settings), "this program");
   return settings;
-}
-
-void expect_same_settings(const Json& recorded, const Json& asked, const std::string& who) {
-  const auto text = [](const Json& all, const std::string& key) {
-    return all.contains(key) ? all[key].dump() : "nothing";
-  };
-  const auto compare = [&](const std::string& key) {
-    if (text(recorded, key) != text(asked, key))
-      throw InputError(who + ": " + key + " differs: the file was begun with " +
-                       text(recorded, key) + ", asked for now is " + text(asked, key));
-  };
-  for (const auto& item : recorded.items()) compare(item.key());
-  for (const auto& item : asked.items()) compare(item.key());
 }
 
 }  // namespace mortise::app
