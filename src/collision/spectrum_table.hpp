@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A body's spectrum on an oversampled grid, ready for interpolation at any frequency.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "mortise/collision/body_density.hpp"
+#include "mortise/fourier/aligned.hpp"
+#include "mortise/fourier/spread_kernel.hpp"
+
+namespace mortise {
+
+/// The Kaiser-Bessel kernel of four samples' width for spectra sampled `oversampling` times per
+/// Nyquist interval, and its pieces as GapJob::pieces wants them.
+struct InterpolationKernel {
+  explicit InterpolationKernel(double oversampling);
+
+  SpreadKernel kernel;
+  AlignedVector<float> pieces;
+};
+
+/// Samples of rho^ at multiples of 1 / box, filtered so that the interpolant passes through them.
+struct SpectrumTable {
+  int size = 0;  ///< per axis; frequency 0 at size / 2
+  double box = 0.0;
+  AlignedVector<float> samples;  ///< as GapJob::table wants them
+
+  /// rho^ at frequency w by interpolation in double precision: a plain rewriting of the fast sum's.
+  [[nodiscard]] std::complex<double> at(const Eigen::Vector3d& w, const SpreadKernel& kernel) const;
+};
+
+/// `spectrum`: even size^3 values at (i - size / 2) / box, first axis slowest. The outermost
+/// `margin` on each side only serve the filter.
+[[nodiscard]] SpectrumTable make_table(const Eigen::Ref<const Eigen::VectorXcd>& spectrum, int size,
+                                       int margin, double box, const SpreadKernel& kernel);
+
+}  // namespace mortise
