@@ -32,7 +32,6 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-7;  // of the spectra: single precision's own
-constexpr int kMargin = 8;           // samples beyond those used, for the filter to settle
 
 // 0 and one of each pair k, -k with |k|^2 <= reach^2.
 std::vector<Eigen::Vector3i> half_ball(int reach) {
@@ -223,13 +222,12 @@ GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
 
   const double samples_box =
       2.0 * options.oversampling * std::max(s.moving_ball.radius, 1e-6 * s.box);
-  const int samples =
-      2 * (static_cast<int>(std::ceil(modes_reach / s.box * samples_box)) + 3 + kMargin);
+  const int samples = 2 * (static_cast<int>(std::ceil(modes_reach / s.box * samples_box)) + 3 +
+                           SpectrumTable::kMargin);
   const Eigen::MatrixXcd samples_spectrum = density_spectrum(
       moving, s.moving_ball.centre, samples, samples_box, kTolerance, options.threads);
   for (Eigen::Index p = 0; p < samples_spectrum.cols(); ++p)
-    s.tables.push_back(
-        make_table(samples_spectrum.col(p), samples, kMargin, samples_box, s.kernel.kernel));
+    s.tables.push_back(make_table(samples_spectrum.col(p), samples, samples_box, s.kernel));
 
   s.order_modes(half, spectrum, side, options);
   s.pack();

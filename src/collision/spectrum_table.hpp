@@ -20,10 +20,14 @@ struct InterpolationKernel {
 
   SpreadKernel kernel;
   AlignedVector<float> pieces;
+  std::vector<double> taps;  ///< of the filter that undoes the kernel
 };
 
-/// Samples of rho^ at multiples of 1 / box, filtered so that the interpolant passes through them.
+/// Samples of rho^ at multiples of 1 / box, filtered so that the kernel's interpolant comes
+/// nearest.
 struct SpectrumTable {
+  static constexpr int kMargin = 8;  ///< samples that only serve the filter, on each side
+
   int size = 0;  ///< per axis; frequency 0 at size / 2
   double box = 0.0;
   AlignedVector<float> samples;  ///< as GapJob::table wants them
@@ -32,9 +36,9 @@ struct SpectrumTable {
   [[nodiscard]] std::complex<double> at(const Eigen::Vector3d& w, const SpreadKernel& kernel) const;
 };
 
-/// `spectrum`: even size^3 values at (i - size / 2) / box, first axis slowest. The outermost
-/// `margin` on each side only serve the filter.
+/// `spectrum`: even size^3 values at (i - size / 2) / box, first axis slowest; the outermost
+/// kMargin are not kept.
 [[nodiscard]] SpectrumTable make_table(const Eigen::Ref<const Eigen::VectorXcd>& spectrum, int size,
-                                       int margin, double box, const SpreadKernel& kernel);
+                                       double box, const InterpolationKernel& kernel);
 
 }  // namespace mortise
