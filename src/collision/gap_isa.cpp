@@ -158,10 +158,10 @@ double total(const Lanes& lanes) {
 
 void sum(const GapJob& job, GapSums* sums) {
   double value = 0.0, translation[3] = {}, rotation[3] = {};
+  Lanes v = zero(), t[3] = {zero(), zero(), zero()}, r[3] = {zero(), zero(), zero()};
   for (std::ptrdiff_t first = 0; first < job.count; first += kModeBlock) {
     Block block;
     prepare(job, first, block);
-    Lanes v = zero(), t[3] = {zero(), zero(), zero()}, r[3] = {zero(), zero(), zero()};
     for (int i = 0; i < kModeBlock; ++i) {
       Eight wx, wy, wz;
       weights(job.pieces, block.z[0][i], wx);
@@ -207,9 +207,17 @@ void sum(const GapJob& job, GapSums* sums) {
         r[2].part[p] += gy * ux - gx * uy;
       }
     }
-    value += total(v);
-    for (int d = 0; d < 3; ++d) translation[d] += total(t[d]);
-    for (int d = 0; d < 3; ++d) rotation[d] += total(r[d]);
+    // Now and then the lanes are emptied, so that single precision adds up no more than some
+    // hundred.
+    if ((first / kModeBlock) % 16 == 15 || first + kModeBlock >= job.count) {
+      value += total(v);
+      v = zero();
+      for (int d = 0; d < 3; ++d) {
+        translation[d] += total(t[d]);
+        rotation[d] += total(r[d]);
+        t[d] = r[d] = zero();
+      }
+    }
   }
   sums->value = value;
   for (int d = 0; d < 3; ++d) sums->translation[d] = translation[d];

@@ -8,7 +8,7 @@
 namespace mortise {
 
 inline constexpr int kStencil = 4;     ///< samples per axis that one frequency is interpolated from
-inline constexpr int kPieceTerms = 9;  ///< coefficients per piece of the interpolation kernel
+inline constexpr int kPieceTerms = 7;  ///< coefficients per piece of the interpolation kernel
 inline constexpr int kModeBlock = 32;  ///< modes are summed in blocks of this many
 
 /// Everything one sum over modes needs.
@@ -20,7 +20,7 @@ struct GapJob {
   // as (re, im) of (x, y, z) and of (x, y + 1, z).
   const float* table;
   std::ptrdiff_t stride_x, stride_y;
-  // Coefficients of z^8 .. z^0: 4 values, then their 4 derivatives, at [term * 8]; 64-byte aligned.
+  // Coefficients of z^6 .. z^0: 4 values, then their 4 derivatives, at [term * 8]; 64-byte aligned.
   const float* pieces;
   float turn[9];         ///< row-major: k to samples of the moving spectrum
   float centre;          ///< sample index of frequency 0
