@@ -6,12 +6,10 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "collision/gap_isa.hpp"
-#include "collision/spectrum_table.hpp"
+#include "collision/gap_state.hpp"
 #include "core/isa.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
@@ -33,57 +31,7 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-7;  // of the spectra: single precision's own
 
-// 0 and one of each pair k, -k with |k|^2 <= reach^2.
-std::vector<Eigen::Vector3i> half_ball(int reach) {
-  std::vector<Eigen::Vector3i> modes;
-  for (int z = 0; z <= reach; ++z)
-    for (int y = z == 0 ? 0 : -reach; y <= reach; ++y)
-      for (int x = z == 0 && y == 0 ? 0 : -reach; x <= reach; ++x)
-        if (x * x + y * y + z * z <= reach * reach) modes.emplace_back(x, y, z);
-  std::sort(modes.begin(), modes.end(), [](const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
-    const int na = a.squaredNorm(), nb = b.squaredNorm();
-    return na != nb ? na < nb
-                    : std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  });
-  return modes;
-}
-
-// A ball's part of (spacing 1 / box)^3 lattice points, and then some.
-int reach_of(int half) {
-  int reach = static_cast<int>(std::ceil(std::cbrt(half * 1.5 / std::numbers::pi)));
-  while (static_cast<int>(half_ball(reach).size()) < half) ++reach;
-  return reach;
-}
-
 }  // namespace
-
-struct GapFunction::State {
-  BodyDensity moving;
-  BoundingBall fixed_ball, moving_ball;
-  double box = 0.0, bandwidth = 0.0, interpolation_error = 0.0;
-  std::vector<Eigen::Vector3i> modes;  // half space, in order
-  Eigen::MatrixXcd coefficients;       // modes x parts: F K / L^3, twice that but for mode 0
-  InterpolationKernel kernel;
-  std::vector<SpectrumTable> tables;  // of each part
-  AlignedVector<float> frequency[3];
-  std::vector<AlignedVector<float>> real, imag;
-  const GapTable* table = nullptr;
-
-  explicit State(double oversampling) : kernel(oversampling) {}
-
-  void order_modes(int half, const Eigen::MatrixXcd& spectrum, int side, const GapOptions& options);
-  void pack();
-  void measure_error(int threads);
-  [[nodiscard]] Eigen::Vector3d shift(const RigidMotion& pose) const {
-    return pose * moving_ball.centre - fixed_ball.centre;
-  }
-  [[nodiscard]] int half_count(int asked) const {
-    const int all = static_cast<int>(modes.size());
-    return asked <= 0 ? all : std::min(all, asked / 2 + 1);
-  }
-  [[nodiscard]] GapValue finish(const RigidMotion& pose, double value, const Eigen::Vector3d& slope,
-                                const Eigen::Vector3d& spin) const;
-};
 
 // Gradients about the ball's centre to gradients about the moving body's origin.
 GapValue GapFunction::State::finish(const RigidMotion& pose, double value,
@@ -93,94 +41,23 @@ GapValue GapFunction::State::finish(const RigidMotion& pose, double value,
   return {value, slope, spin + arm.cross(slope)};
 }
 
-void GapFunction::State::order_modes(int half, const Eigen::MatrixXcd& spectrum, int side,
-                                     const GapOptions& options) {
-  std::vector<Eigen::Vector3i> candidates = half_ball(side / 2 - 1);
-  const auto row = [&](const Eigen::Vector3i& k) {
-    const Eigen::Index h = side / 2, n = side;
-    return ((k[0] + h) * n + k[1] + h) * n + k[2] + h;
-  };
-  const auto window = [&](const Eigen::Vector3i& k) {
-    return options.window ? options.window(k.cast<double>() / box) : 1.0;
-  };
-  if (options.order == ModeOrder::kEnergy) {
-    // Mean square of the moving spectrum over each shell's samples.
-    std::vector<double> energy(candidates.size());
-    for (std::size_t first = 0; first < candidates.size();) {
-      std::size_t last = first;
-      double sum = 0.0;
-      for (; last < candidates.size() &&
-             candidates[last].squaredNorm() == candidates[first].squaredNorm();
-           ++last)
-        for (const SpectrumTable& t : tables)
-          sum += std::norm(t.at(candidates[last].cast<double>() / box, kernel.kernel));
-      for (std::size_t i = first; i < last; ++i)
-        energy[i] = sum / static_cast<double>(last - first) *
-                    spectrum.row(row(candidates[i])).squaredNorm() *
-                    std::pow(window(candidates[i]), 2);
-      first = last;
-    }
-    std::vector<std::size_t> order(candidates.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return energy[a] > energy[b]; });
-    std::vector<Eigen::Vector3i> sorted;
-    for (const std::size_t i : order) sorted.push_back(candidates[i]);
-    candidates = std::move(sorted);
+GapJob GapFunction::State::job(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& t,
+                               std::size_t part) const {
+  const SpectrumTable& samples = tables[part];
+  GapJob result = {};
+  result.kx = frequency[0].data(), result.ky = frequency[1].data(), result.kz = frequency[2].data();
+  result.real = real[part].data(), result.imag = imag[part].data();
+  result.table = samples.samples.data();
+  result.stride_y = 4 * static_cast<std::ptrdiff_t>(samples.size);
+  result.stride_x = result.stride_y * samples.size;
+  result.pieces = kernel.pieces.data();
+  result.centre = static_cast<float>(samples.size / 2);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      result.turn[3 * row + column] = static_cast<float>(rotation(column, row) * samples.box / box);
+    result.translation[row] = static_cast<float>(t[row] / box);
   }
-  candidates.resize(half);
-  modes = std::move(candidates);
-  coefficients.resize(half, spectrum.cols());
-  for (int i = 0; i < half; ++i) {
-    const double scale = (modes[i].isZero() ? 1.0 : 2.0) * window(modes[i]) / (box * box * box);
-    for (Eigen::Index p = 0; p < spectrum.cols(); ++p)
-      coefficients(i, p) = (p == 0 ? scale : -scale) * spectrum(row(modes[i]), p);
-    bandwidth = std::max(bandwidth, modes[i].cast<double>().norm() / box);
-  }
-}
-
-void GapFunction::State::pack() {
-  const std::size_t count = (modes.size() + kModeBlock - 1) / kModeBlock * kModeBlock;
-  for (int d = 0; d < 3; ++d) {
-    frequency[d].assign(count, 0.0F);
-    for (std::size_t i = 0; i < modes.size(); ++i)
-      frequency[d][i] = static_cast<float>(modes[i][d]);
-  }
-  for (Eigen::Index p = 0; p < coefficients.cols(); ++p) {
-    real.emplace_back(count, 0.0F);
-    imag.emplace_back(count, 0.0F);
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      const std::complex<double> c = coefficients(static_cast<Eigen::Index>(i), p);
-      real.back()[i] = static_cast<float>(c.real());
-      imag.back()[i] = static_cast<float>(c.imag());
-    }
-  }
-}
-
-void GapFunction::State::measure_error(int threads) {
-  constexpr double kWork = 2e7;  // exponentials spent on this
-  const double wanted = std::clamp(kWork / static_cast<double>(moving.size()), 16.0, 512.0);
-  std::mt19937_64 random(20110307);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Eigen::Matrix3Xd frequencies(3, static_cast<Eigen::Index>(wanted));
-  for (Eigen::Index i = 0; i < frequencies.cols(); ++i) do {
-      frequencies.col(i) << uniform(random), uniform(random), uniform(random);
-    } while (frequencies.col(i).norm() > 1.0);
-  frequencies *= bandwidth;
-  const Eigen::MatrixXcd exact =
-      density_spectrum_at(moving, moving_ball.centre, frequencies, threads);
-  for (std::size_t p = 0; p < tables.size(); ++p) {
-    double total = 0.0;
-    for (Eigen::Index i = 0; i < moving.size(); ++i)
-      total += std::abs(p == 0 ? moving.weights[i].real() : moving.weights[i].imag()) *
-               (moving.radii.size() > 0 ? moving.kernel.volume(moving.radii[i]) : 1.0);
-    if (total == 0.0) continue;
-    for (Eigen::Index i = 0; i < frequencies.cols(); ++i)
-      interpolation_error =
-          std::max(interpolation_error, std::abs(tables[p].at(frequencies.col(i), kernel.kernel) -
-                                                 exact(i, 4 * static_cast<Eigen::Index>(p))) /
-                                            total);
-  }
+  return result;
 }
 
 GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
@@ -214,7 +91,7 @@ GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
   s.box = options.box > 0.0 ? options.box : std::max(2.0 * reach, 1e-300);
 
   const int half = options.max_modes / 2 + 1;
-  const int modes_reach = reach_of(
+  const int modes_reach = State::reach_of(
       options.order == ModeOrder::kEnergy ? 4 * half : half);  // energy has to choose from more
   const int side = 2 * (modes_reach + 1);
   const Eigen::MatrixXcd spectrum =
@@ -232,6 +109,7 @@ GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
   s.order_modes(half, spectrum, side, options);
   s.pack();
   s.measure_error(options.threads);
+  s.measure_tails();
   s.table =
       &pick_isa(best_isa(), isa_baseline::kGapTable, isa_avx2::kGapTable, isa_avx512::kGapTable);
 }
@@ -249,22 +127,8 @@ GapValue GapFunction::operator()(const RigidMotion& pose, int modes) const {
   const int whole = half / kModeBlock * kModeBlock;
   GapSums total = {};
   for (std::size_t p = 0; p < s.tables.size(); ++p) {
-    const SpectrumTable& samples = s.tables[p];
-    GapJob job = {};
-    job.kx = s.frequency[0].data(), job.ky = s.frequency[1].data(), job.kz = s.frequency[2].data();
-    job.real = s.real[p].data(), job.imag = s.imag[p].data();
+    GapJob job = s.job(rotation, t, p);
     job.count = whole;
-    job.table = samples.samples.data();
-    job.stride_y = 4 * static_cast<std::ptrdiff_t>(samples.size);
-    job.stride_x = job.stride_y * samples.size;
-    job.pieces = s.kernel.pieces.data();
-    job.centre = static_cast<float>(samples.size / 2);
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column)
-        job.turn[3 * row + column] =
-            static_cast<float>(rotation(column, row) * samples.box / s.box);
-      job.translation[row] = static_cast<float>(t[row] / s.box);
-    }
     const auto add = [&](const GapJob& part) {
       GapSums sums;
       s.table->sum(part, &sums);
@@ -335,6 +199,8 @@ double GapFunction::bandwidth() const noexcept { return state_->bandwidth; }
 const BoundingBall& GapFunction::fixed_ball() const noexcept { return state_->fixed_ball; }
 const BoundingBall& GapFunction::moving_ball() const noexcept { return state_->moving_ball; }
 double GapFunction::interpolation_error() const noexcept { return state_->interpolation_error; }
+
+double GapFunction::interpolation_bound() const noexcept { return state_->kernel.error_bound; }
 
 AbsoluteGradients absolute_gradients(const GapValue& value, const RigidMotion& fixed_in_world,
                                      const RigidMotion& moving_in_world) {

@@ -224,8 +224,59 @@ void sum(const GapJob& job, GapSums* sums) {
   for (int d = 0; d < 3; ++d) sums->rotation[d] = rotation[d];
 }
 
+void probe(const GapJob& job, double* value, double* energy) {
+  double v = 0.0, e = 0.0;
+  for (std::ptrdiff_t first = 0; first < job.count; first += kModeBlock) {
+    Block block;
+    prepare(job, first, block);
+    float re[kModeBlock], im[kModeBlock];
+    for (int i = 0; i < kModeBlock; ++i) {
+      Eight wx, wy, wz;
+      weights(job.pieces, block.z[0][i], wx);
+      weights(job.pieces, block.z[1][i], wy);
+      weights(job.pieces, block.z[2][i], wz);
+      const Lanes z0 = along_z(wz, false);
+      const Vector ya[2] = {along_y<0>(wy), along_y<2>(wy)};
+      const float* corner = job.table + block.cell[0][i] * job.stride_x +
+                            block.cell[1][i] * job.stride_y +
+                            static_cast<std::ptrdiff_t>(4) * block.cell[2][i];
+      Lanes g = zero();
+      for (int p = 0; p < kParts; ++p) {
+        for (int y = 0; y < 2; ++y) {
+          const float* row = corner + 2 * y * job.stride_y + p * kLanes;
+          Vector a = {};
+          for (int x = 0; x < kStencil; ++x) {
+            Vector sample;
+            load(row + x * job.stride_x, sample);
+            a += sample * wx[x];
+          }
+          g.part[p] += a * ya[y];
+        }
+        g.part[p] *= z0.part[p];
+      }
+      float lanes[16];
+      __builtin_memcpy(lanes, &g, sizeof lanes);
+      float even = 0.0F, odd = 0.0F;
+      for (int l = 0; l < 16; l += 2) {
+        even += lanes[l];
+        odd += lanes[l + 1];
+      }
+      re[i] = even, im[i] = odd;
+    }
+    float block_value = 0.0F, block_energy = 0.0F;
+    for (int i = 0; i < kModeBlock; ++i) {
+      block_value += block.cosine[2 * i] * re[i] + block.cosine[2 * i + 1] * im[i];
+      block_energy += re[i] * re[i] + im[i] * im[i];
+    }
+    v += static_cast<double>(block_value);
+    e += static_cast<double>(block_energy);
+  }
+  *value = v;
+  *energy = e;
+}
+
 }  // namespace
 
-const GapTable kGapTable = {sum};
+const GapTable kGapTable = {sum, probe};
 
 }  // namespace mortise::MORTISE_ISA

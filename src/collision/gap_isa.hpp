@@ -35,6 +35,8 @@ struct GapSums {
 
 struct GapTable {
   void (*sum)(const GapJob& job, GapSums* sums);
+  /// Only the value, and the sum of |G|^2 over the modes (one of each pair).
+  void (*probe)(const GapJob& job, double* value, double* energy);
 };
 
 }  // namespace mortise

@@ -21,6 +21,8 @@ struct InterpolationKernel {
   SpreadKernel kernel;
   AlignedVector<float> pieces;
   std::vector<double> taps;  ///< of the filter that undoes the kernel
+  /// |interpolated - exact| <= error_bound Int |rho|, at every frequency and whatever the body.
+  double error_bound = 0.0;
 };
 
 /// Samples of rho^ at multiples of 1 / box, filtered so that the kernel's interpolant comes

@@ -159,8 +159,7 @@ TEST(GapFunction, FastFormAgreesWithTheExactOne) {
               std::max(spin_error, (fast.rotation_gradient - exact.rotation_gradient).norm());
         }
       }
-      RecordProperty("value_error", std::to_string(value_error / value_scale));
-      std::printf("oversampling %.1f: value %.1e slope %.1e spin %.1e spectrum %.1e\n",
+      RecordProperty("spectrum_error", std::to_string(gap.interpolation_error()));
                   oversampling, value_error / value_scale, slope_error / slope_scale,
                   spin_error / spin_scale, gap.interpolation_error());
       const double allowed = oversampling < 1.8 ? 1e-3 : oversampling < 2.5 ? 8e-4 : 5e-4;
@@ -168,6 +167,158 @@ TEST(GapFunction, FastFormAgreesWithTheExactOne) {
       EXPECT_LT(slope_error, allowed * slope_scale);
       EXPECT_LT(spin_error, 3.0 * allowed * spin_scale);
     }
+}
+
+// The lattice of frequencies is mapped onto itself by the turns of a cube, so these identities hold
+// to the accuracy of the spectra for them; any turn may be applied to the moving body's own frame.
+TEST(GapFunction, ValuesDoNotDependOnTheFramesChosen) {
+  const Pair pair;
+  const GapOptions options = {.max_modes = 515, .box = 60.0};
+  const GapFunction gap(pair.fixed, pair.moving, options);
+  std::mt19937_64 random(11);
+  Eigen::Matrix3d quarter;
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const RigidMotion a{Eigen::Quaterniond(quarter), {1.0, 2.0, 3.0}};
+  const RigidMotion b{tests::random_rotation(random), {-2.0, 0.5, 1.0}};
+  BodyDensity fixed = pair.fixed, moving = pair.moving;
+  fixed.points = a * fixed.points;
+  moving.points = b * moving.points;
+  const GapFunction other(fixed, moving, options);
+  for (int i = 0; i < 3; ++i) {
+    const RigidMotion pose = pair.pose(random);
+    const GapValue here = gap.exact(pose);
+    const GapValue there = other.exact(compose(a, compose(pose, inverse(b))));
+    EXPECT_NEAR(there.value, here.value, 1e-6 * std::abs(here.value));
+    EXPECT_LT((there.translation_gradient - a.rotation * here.translation_gradient).norm(),
+              1e-6 * here.translation_gradient.norm());
+  }
+}
+
+TEST(GapFunction, SwappingTheBodiesInvertsThePose) {
+  const Pair pair;
+  const GapOptions options = {.max_modes = 515, .box = 60.0};
+  const GapFunction gap(pair.fixed, pair.moving, options),
+      swapped(pair.moving, pair.fixed, options);
+  Eigen::Matrix3d quarter;
+  quarter << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  std::mt19937_64 random(12);
+  for (int i = 0; i < 3; ++i) {
+    RigidMotion pose = pair.pose(random);
+    const Eigen::Vector3d centre = pose * kMovingCentre;
+    pose.rotation = Eigen::Quaterniond(quarter);
+    pose.translation = centre - pose.rotation * kMovingCentre;
+    const double here = gap.exact(pose).value, there = swapped.exact(inverse(pose)).value;
+    EXPECT_NEAR(there, here, 1e-6 * std::abs(here));
+  }
+}
+
+TEST(GapFunction, AbsoluteGradientsMeetDifferences) {
+  const Pair pair;
+  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 300});
+  std::mt19937_64 random(21);
+  const RigidMotion fixed{tests::random_rotation(random), {1.0, -4.0, 2.0}};
+  const RigidMotion moving = compose(fixed, pair.pose(random));
+  const auto value = [&](const RigidMotion& f, const RigidMotion& m) {
+    return gap.exact(compose(inverse(f), m)).value;
+  };
+  const AbsoluteGradients found =
+      absolute_gradients(gap.exact(compose(inverse(fixed), moving)), fixed, moving);
+  const double scale = found.moving.translation.norm() + found.moving.rotation.norm();
+  for (int d = 0; d < 3; ++d) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(d);
+    const auto slope = [&](const auto& at) {
+      const double h = 1e-3;
+      return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+    };
+    const auto turned = [&](const RigidMotion& body, double h) {
+      RigidMotion result = body;
+      result.rotation = body.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(h, axis));
+      return result;
+    };
+    EXPECT_NEAR(found.moving.translation[d], slope([&](double h) {
+                  return value(fixed, nudged(moving, h * axis, {0, 0, 0}));
+                }),
+                1e-6 * scale);
+    EXPECT_NEAR(found.fixed.translation[d], slope([&](double h) {
+                  return value(nudged(fixed, h * axis, {0, 0, 0}), moving);
+                }),
+                1e-6 * scale);
+    EXPECT_NEAR(found.moving.rotation[d],
+                slope([&](double h) { return value(fixed, turned(moving, h)); }), 1e-6 * scale);
+    EXPECT_NEAR(found.fixed.rotation[d],
+                slope([&](double h) { return value(turned(fixed, h), moving); }), 1e-6 * scale);
+  }
+}
+
+TEST(GapFunction, BatchesAreTheSameForAnyThreads) {
+  const Pair pair(true);
+  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 1000});
+  std::mt19937_64 random(2);
+  std::vector<RigidMotion> poses;
+  for (int i = 0; i < 200; ++i) poses.push_back(pair.pose(random));
+  std::vector<GapValue> one(poses.size()), three(poses.size());
+  gap.evaluate(poses, one, 0, 1);
+  gap.evaluate(poses, three, 0, 3);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(one[i].value, three[i].value);
+    EXPECT_EQ(one[i].rotation_gradient, three[i].rotation_gradient);
+  }
+}
+
+TEST(GapFunction, EnergyOrderConvergesFasterOnALongBody) {
+  Knots rod = random_knots(40, 4.0, {0, 0, 0}, 3);
+  rod.points.row(0) *= 0.1;
+  rod.points.row(1) *= 0.1;
+  rod.points.row(2) *= 2.0;
+  const BodyDensity fixed = density_of_knots(rod),
+                    moving = density_of_knots(random_knots(1, 0.1, {0, 0, 0}, 4));
+  const GapFunction reference(fixed, moving, {.max_modes = 20000});
+  const GapFunction near(fixed, moving, {.max_modes = 2000}),
+      strong(fixed, moving, {.max_modes = 2000, .order = ModeOrder::kEnergy});
+  std::mt19937_64 random(2);
+  double near_error = 0.0, strong_error = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const RigidMotion pose = random_pose({0, 0, 0}, {0, 0, 0}, 6.0, random);
+    const double expected = reference(pose).value;
+    near_error += std::pow(near(pose).value - expected, 2);
+    strong_error += std::pow(strong(pose).value - expected, 2);
+  }
+  EXPECT_LT(strong_error, near_error);
+}
+
+// Whatever is said to be below a threshold is so; and most of what is far below it is found out
+// early.
+TEST(GapFunction, EarlyMissesAreNeverWrong) {
+  const Pair pair;
+  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 4096, .oversampling = 4.0});
+  std::mt19937_64 random(17);
+  int early = 0, below = 0;
+  for (int i = 0; i < 200; ++i) {
+    const RigidMotion pose = pair.pose(random, 11.0);
+    const double value = gap.exact(pose).value;
+    for (const double threshold : {0.5, 5.0, 30.0, 100.0}) {
+      const GapFunction::Rejection found = gap.reject(pose, threshold);
+      if (found.rejected) {
+        EXPECT_LT(value, threshold);
+      }
+      EXPECT_GE(found.bound, value);
+      below += value < threshold ? 1 : 0;
+      early += found.rejected && found.modes < gap.modes() / 2 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(early, below / 4);
+}
+
+TEST(GapFunction, RefusesBadInput) {
+  const Pair real, complex(true);
+  EXPECT_THROW(GapFunction(real.fixed, complex.moving), InputError);
+  EXPECT_THROW(GapFunction(real.fixed, real.moving, {.max_modes = 0}), InputError);
+  EXPECT_THROW(GapFunction(real.fixed, real.moving, {.box = 1.0}), InputError);
+  EXPECT_THROW(GapFunction(real.fixed, real.moving, {.oversampling = 1.0}), InputError);
+  EXPECT_THROW((void)density_of_knots(random_knots(3, 1.0, {0, 0, 0}, 1), RadialKernel{}, -5.0),
+               InputError);
+  const GapFunction gap(complex.fixed, complex.moving, {.max_modes = 100});
+  EXPECT_THROW((void)gap.reject({}, 1.0), InputError);
 }
 
 }  // namespace

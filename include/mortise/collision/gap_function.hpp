@@ -76,6 +76,22 @@ class GapFunction {
   /// Largest error of the interpolated spectrum found at places between its samples, relative to
   /// the integral of |rho_moving|.
   [[nodiscard]] double interpolation_error() const noexcept;
+  /// No error of an interpolated spectrum is larger than this times the integral of |rho_moving|.
+  [[nodiscard]] double interpolation_bound() const noexcept;
+
+  /// Early miss [FC, Sec. 6.4]: sums modes only until value and bound on all that is left out fall
+  /// below `threshold`.
+  struct Rejection {
+    bool rejected =
+        false;      ///< V, exactly interpolated and with all modes kept, is below the threshold
+    int modes = 0;  ///< summed
+    double bound = 0.0;  ///< the last upper bound on V
+  };
+  /// The rest is at most L^-3 times the root of sum |K F|^2 over the rest times the root of L^3 Int
+  /// rho_moving^2 - sum |G(R^T w)|^2 over the modes summed, both over the whole space (twice the
+  /// half of Eq. 30); the second is Parseval's and holds at every rotation. Interpolation errors
+  /// are bounded and added. For real densities of balls only. @throws InputError otherwise
+  [[nodiscard]] Rejection reject(const RigidMotion& moving_in_fixed, double threshold) const;
 
  private:
   struct State;
