@@ -202,6 +202,10 @@ double GapFunction::interpolation_error() const noexcept { return state_->interp
 
 double GapFunction::interpolation_bound() const noexcept { return state_->kernel.error_bound; }
 
+double GapFunction::sum_error_bound() const noexcept {
+  return state_->kernel.error_bound * state_->moving_mass * state_->head.back();
+}
+
 AbsoluteGradients absolute_gradients(const GapValue& value, const RigidMotion& fixed_in_world,
                                      const RigidMotion& moving_in_world) {
   const Eigen::Quaterniond& fixed = fixed_in_world.rotation;

@@ -78,6 +78,8 @@ class GapFunction {
   [[nodiscard]] double interpolation_error() const noexcept;
   /// No error of an interpolated spectrum is larger than this times the integral of |rho_moving|.
   [[nodiscard]] double interpolation_bound() const noexcept;
+  /// The value differs from that with exact spectra by no more than this; for real densities.
+  [[nodiscard]] double sum_error_bound() const noexcept;
 
   /// Early miss [FC, Sec. 6.4]: sums modes only until value and bound on all that is left out fall
   /// below `threshold`.
