@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "collision/ball_tree.hpp"
+#include "collision/gap_state.hpp"
 #include "mortise/collision/radial_instrument.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
@@ -15,32 +18,35 @@
 namespace mortise {
 namespace {
 
-// The most that sum_i 1_{ball i} is anywhere: a place in ball i is in no ball that does not meet
-// it.
-double multiplicity(const BodyDensity& density) {
-  int most = 0;
-  for (Eigen::Index i = 0; i < density.size(); ++i) {
-    int count = 0;
-    for (Eigen::Index j = 0; j < density.size(); ++j)
-      count += (density.points.col(i) - density.points.col(j)).norm() <
-                       density.radii[i] + density.radii[j]
-                   ? 1
-                   : 0;
-    most = std::max(most, count);
-  }
-  return most;
-}
+// The spectra's error, 1e-7 each, with room: relative to the largest overlap by Cauchy and Schwarz.
+constexpr double kSpectrumError = 1e-6;
 
-double volume(const BodyDensity& density) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < density.size(); ++i) sum += density.kernel.volume(density.radii[i]);
-  return sum;
+// Few balls whose union, grown by `slack`, holds all balls: those that no kept and grown one holds,
+// from the largest down. Sums of fewer balls count less of the body twice.
+CollisionBody thinned(const CollisionBody& body, double slack) {
+  const Eigen::Matrix4Xd& balls = body.balls.points;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(balls.cols())), kept;
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return balls(3, i) > balls(3, j); });
+  for (const Eigen::Index i : order)
+    if (std::none_of(kept.begin(), kept.end(), [&](Eigen::Index j) {
+          return (balls.col(i) - balls.col(j)).head<3>().norm() + balls(3, i) <=
+                 balls(3, j) + slack;
+        }))
+      kept.push_back(i);
+  return {{balls(Eigen::all, kept), body.balls.weights(kept)}, body.cover + slack};
 }
 
 BodyDensity grown(const CollisionBody& body, double by) {
   Knots knots = body.balls;
   knots.weights.setOnes();
   return density_of_knots(knots, RadialKernel{}, body.cover + by);
+}
+
+// Int a(x) b(T x) dx is at most the product of the roots of Int a^2 and Int b^2, at every pose.
+double largest_overlap(const BodyDensity& a, const BodyDensity& b) {
+  return std::sqrt(ball_energy(a) * ball_energy(b));
 }
 
 // Largest |w| of the ball of lattice points that a series of so many modes holds: a little less
@@ -54,35 +60,54 @@ double bandwidth_of(int modes, double box) {
 struct Collider::State {
   BallTree fixed, moving;
   ColliderOptions options;
-  double tree_band = 0.0, sum_band = 0.0, growth = 0.0, threshold = 0.0, reach = 0.0;
-  GapFunction gap;
+  double tree_band = 0.0, sum_band = std::numeric_limits<double>::infinity();
+  double growth = 0.0, threshold = 0.0, sum_error = 0.0;  // threshold of the exact sum
+  std::unique_ptr<GapFunction> gap;
+
+  State(const CollisionBody& fixed_body, const CollisionBody& moving_body,
+        const ColliderOptions& asked)
+      : fixed(fixed_body.balls.points, fixed_body.cover),
+        moving(moving_body.balls.points, moving_body.cover),
+        options(asked),
+        tree_band(fixed_body.cover + moving_body.cover) {}
+  void choose_growth(const CollisionBody& fixed_body, const CollisionBody& moving_body);
 };
 
-namespace {
-
-struct Plan {
-  double growth = 0.0, band = std::numeric_limits<double>::infinity();
-};
-
-// The growth with the least promised band, before the errors of the sum are known.
-Plan plan_growth(const CollisionBody& fixed, const CollisionBody& moving, double reach, int modes) {
-  Plan best;
-  for (double share = 0.02; share < 0.6; share *= 1.2) {
-    const double x0 = share * reach;
-    const RadialInstrument kernel(bandwidth_of(modes, 2.0 * (reach + 2.0 * x0)));
-    const BodyDensity a = grown(fixed, x0), b = grown(moving, x0);
-    const double most = std::min(volume(a) * multiplicity(b), volume(b) * multiplicity(a));
-    const double inside = kernel.lens(x0);
+// The growth x0 with the least band 2 x0 + x1, by trial: small ones drown in the sum's own error,
+// large ones are a band by themselves.
+void Collider::State::choose_growth(const CollisionBody& fixed_body,
+                                    const CollisionBody& moving_body) {
+  const double reach =
+      bounding_ball(grown(fixed_body, 0.0)).radius + bounding_ball(grown(moving_body, 0.0)).radius;
+  for (const double share : {0.04, 0.06, 0.09, 0.13, 0.19, 0.28}) {
+    const double x0 = share * reach, slack = 0.7 * x0;
+    const BodyDensity a = grown(thinned(fixed_body, slack), x0),
+                      b = grown(thinned(moving_body, slack), x0);
+    // Twice the grown reach keeps the obstacle's images apart; then room for the kernel's stop
+    // radius.
+    const double box = 2.0 * (bounding_ball(a).radius + bounding_ball(b).radius) + 0.2 * reach;
+    const RadialInstrument kernel(bandwidth_of(options.modes, box));
+    auto trial = std::make_unique<GapFunction>(
+        a, b,
+        GapOptions{.max_modes = options.modes,
+                   .box = box,
+                   .oversampling = options.oversampling,
+                   .window = [&](const Eigen::Vector3d& w) { return kernel.transform(w.norm()); },
+                   .threads = options.threads});
+    const double most = largest_overlap(a, b);
+    const double error = kSpectrumError * most, inside = kernel.lens(x0) - error;
     double x1 = 0.0;
-    const double limit = 4.0 * reach, step = reach / 200.0;
-    while (x1 < limit && most * kernel.outside(x1) >= 0.8 * inside) x1 += step;
-    if (x1 < limit && 2.0 * x0 + x1 < best.band) best = {x0, 2.0 * x0 + x1};
+    while (x1 < 4.0 * reach && most * kernel.outside(x1) + error >= inside) x1 += reach / 200.0;
+    const bool certain = x1 < 4.0 * reach;
+    const double band =
+        certain ? 2.0 * (x0 + slack) + x1 + tree_band : std::numeric_limits<double>::infinity();
+    if (gap == nullptr || band < sum_band) {
+      gap = std::move(trial);
+      sum_band = band, growth = x0, threshold = inside;
+      sum_error = gap->sum_error_bound();
+    }
   }
-  if (best.growth == 0.0) best.growth = 0.3 * reach;  // too few modes: no band is promised
-  return best;
 }
-
-}  // namespace
 
 Collider::Collider(const CollisionBody& fixed, const CollisionBody& moving,
                    const ColliderOptions& options) {
@@ -96,33 +121,8 @@ Collider::Collider(const CollisionBody& fixed, const CollisionBody& moving,
   if (options.tree_steps < 0)
     throw InputError("Collider: tree_steps must be >= 0, got " +
                      std::to_string(options.tree_steps));
-  const double reach =
-      bounding_ball(grown(fixed, 0.0)).radius + bounding_ball(grown(moving, 0.0)).radius;
-  const Plan plan = plan_growth(fixed, moving, reach, options.modes);
-  const BodyDensity a = grown(fixed, plan.growth), b = grown(moving, plan.growth);
-  // Grown bodies, and room for the kernel's reach beyond where their balls part.
-  const double grown_reach = bounding_ball(a).radius + bounding_ball(b).radius;
-  const double room = std::isfinite(plan.band) ? plan.band : 0.0;
-  const double box = 2.0 * grown_reach + std::max(0.0, room - 2.0 * plan.growth);
-  const RadialInstrument kernel(bandwidth_of(options.modes, box));
-  GapFunction gap(a, b,
-                  {.max_modes = options.modes,
-                   .box = box,
-                   .oversampling = options.oversampling,
-                   .window = [&](const Eigen::Vector3d& w) { return kernel.transform(w.norm()); },
-                   .threads = options.threads});
-  const double error = gap.sum_error_bound(), inside = kernel.lens(plan.growth);
-  double band = std::numeric_limits<double>::infinity();
-  const double most = std::min(volume(a) * multiplicity(b), volume(b) * multiplicity(a));
-  for (double x1 = 0.0; x1 < 4.0 * reach; x1 += reach / 200.0)
-    if (most * kernel.outside(x1) + error < inside - error) {
-      band = 2.0 * plan.growth + x1 + fixed.cover + moving.cover;
-      break;
-    }
-  state_ = std::make_unique<State>(State{BallTree(fixed.balls.points, fixed.cover),
-                                         BallTree(moving.balls.points, moving.cover), options,
-                                         fixed.cover + moving.cover, band, plan.growth,
-                                         inside - error, reach, std::move(gap)});
+  state_ = std::make_unique<State>(fixed, moving, options);
+  state_->choose_growth(fixed, moving);
 }
 
 Collider::~Collider() = default;
@@ -147,10 +147,13 @@ Collision Collider::operator()(const RigidMotion& pose) const {
         break;
     }
   }
-  if (s.options.with_gap || !known) answer.gap = s.gap(pose);
+  if (s.options.with_gap || !known) answer.gap = (*s.gap)(pose);
   if (!known) {
     answer.by = DecidedBy::kSum;
-    answer.contact = answer.gap.value < s.threshold ? Contact::kNo : Contact::kBand;
+    const double value = std::abs(answer.gap.value - s.threshold) > s.sum_error
+                             ? answer.gap.value
+                             : s.gap->exact(pose).value;  // too close for single precision
+    answer.contact = value < s.threshold ? Contact::kNo : Contact::kBand;
   }
   return answer;
 }
@@ -171,6 +174,6 @@ double Collider::tree_band() const noexcept { return state_->tree_band; }
 double Collider::sum_band() const noexcept { return state_->sum_band; }
 double Collider::growth() const noexcept { return state_->growth; }
 double Collider::threshold() const noexcept { return state_->threshold; }
-const GapFunction& Collider::gap_function() const noexcept { return state_->gap; }
+const GapFunction& Collider::gap_function() const noexcept { return *state_->gap; }
 
 }  // namespace mortise

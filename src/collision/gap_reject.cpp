@@ -9,10 +9,7 @@
 
 namespace mortise {
 
-namespace {
-
-// Int rho^2 of balls, pair by pair.
-double energy_of(const BodyDensity& density) {
+double ball_energy(const BodyDensity& density) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < density.size(); ++i)
     for (Eigen::Index j = 0; j < density.size(); ++j) {
@@ -23,8 +20,6 @@ double energy_of(const BodyDensity& density) {
     }
   return sum;
 }
-
-}  // namespace
 
 void GapFunction::State::measure_tails() {
   const std::size_t blocks = (modes.size() + kModeBlock - 1) / kModeBlock;
@@ -44,7 +39,7 @@ void GapFunction::State::measure_tails() {
     moving_mass += std::abs(moving.weights[i]) *
                    (moving.radii.size() > 0 ? moving.kernel.volume(moving.radii[i]) : 1.0);
   if (coefficients.cols() == 1 && moving.radii.size() > 0 && std::isinf(moving.kernel.alpha()))
-    moving_energy = box * box * box * energy_of(moving);
+    moving_energy = box * box * box * ball_energy(moving);
 }
 
 GapFunction::Rejection GapFunction::reject(const RigidMotion& pose, double threshold) const {

@@ -51,4 +51,7 @@ struct GapFunction::State {
                                 const Eigen::Vector3d& spin) const;
 };
 
+/// Int rho^2 of real balls, pair by pair.
+[[nodiscard]] double ball_energy(const BodyDensity& density);
+
 }  // namespace mortise

@@ -2,6 +2,7 @@
 // The radial instrument kernel, by quadrature in units of its bandwidth.
 #include "mortise/collision/radial_instrument.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,54 +34,70 @@ double root_kernel(double r) {
   return 4.0 * pi * sum * 0.5 / kPanels / 3.0;
 }
 
+// Everything for B = 1, worked out once per process.
+struct UnitKernel {
+  double step = kReach / kSteps;
+  Eigen::VectorXd value = Eigen::VectorXd(kSteps);  // K at (i + 1/2) step, times 4 pi r^2 step
+  Eigen::VectorXd outside = Eigen::VectorXd(kSteps + 1);             // at i step
+  Eigen::VectorXd transform = Eigen::VectorXd(kTransformSteps + 1);  // at i / kTransformSteps
+
+  UnitKernel() {
+    for (int i = 0; i < kSteps; ++i) {
+      const double r = (i + 0.5) * step;
+      value[i] = 4.0 * pi * r * r * step * std::pow(root_kernel(r), 2);
+    }
+    const double tail = value[kSteps - 1] / step * kReach / 3.0;  // r^2 r^-6, integrated
+    const double total = value.sum() + tail;
+    value /= total;
+    outside[kSteps] = 4.0 * tail / total;  // an envelope of an oscillating end
+    for (int i = kSteps - 1; i >= 0; --i) outside[i] = outside[i + 1] + value[i];
+    for (int j = 0; j <= kTransformSteps; ++j) {
+      const double k = static_cast<double>(j) / kTransformSteps;
+      double sum = 0.0;
+      for (int i = 0; i < kSteps; ++i) {
+        const double u = 2.0 * pi * k * (i + 0.5) * step;
+        sum += value[i] * (u < 1e-8 ? 1.0 : std::sin(u) / u);
+      }
+      transform[j] = std::max(0.0, sum);
+    }
+    transform /= transform[0];
+    transform[kTransformSteps] = 0.0;
+  }
+};
+
+const UnitKernel& unit() {
+  static const UnitKernel kernel;
+  return kernel;
+}
+
 }  // namespace
 
 RadialInstrument::RadialInstrument(double bandwidth) : bandwidth_(bandwidth) {
   if (!(bandwidth > 0.0) || !std::isfinite(bandwidth))
     throw InputError("RadialInstrument: bandwidth must be > 0, got " + std::to_string(bandwidth));
-  const double step = kReach / kSteps;
-  value_.resize(kSteps);
-  for (int i = 0; i < kSteps; ++i) {
-    const double r = (i + 0.5) * step;
-    value_[i] = 4.0 * pi * r * r * step * std::pow(root_kernel(r), 2);
-  }
-  const double tail = value_[kSteps - 1] / step * kReach / 3.0;  // r^2 r^-6, integrated
-  const double total = value_.sum() + tail;
-  value_ /= total;
-  outside_.resize(kSteps + 1);
-  outside_[kSteps] = 4.0 * tail / total;  // an envelope of an oscillating end
-  for (int i = kSteps - 1; i >= 0; --i) outside_[i] = outside_[i + 1] + value_[i];
-  transform_.resize(kTransformSteps + 1);
-  for (int j = 0; j <= kTransformSteps; ++j) {
-    const double k = static_cast<double>(j) / kTransformSteps;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double u = 2.0 * pi * k * (i + 0.5) * step;
-      sum += value_[i] * (u < 1e-8 ? 1.0 : std::sin(u) / u);
-    }
-    transform_[j] = std::max(0.0, sum);
-  }
-  transform_ /= transform_[0];
-  transform_[kTransformSteps] = 0.0;
-  step_ = step / bandwidth;
 }
 
 double RadialInstrument::transform(double k) const {
   const double at = k / bandwidth_ * kTransformSteps;
   if (!(at < kTransformSteps)) return 0.0;
   const int i = static_cast<int>(at);
-  return transform_[i] + (at - i) * (transform_[i + 1] - transform_[i]);
+  const Eigen::VectorXd& table = unit().transform;
+  return table[i] + (at - i) * (table[i + 1] - table[i]);
 }
 
 double RadialInstrument::outside(double r) const {
   if (r <= 0.0) return 1.0;
-  return outside_[std::min<Eigen::Index>(kSteps, static_cast<Eigen::Index>(r / step_))];
+  const UnitKernel& kernel = unit();
+  return kernel.outside[std::min<Eigen::Index>(
+      kSteps, static_cast<Eigen::Index>(r * bandwidth_ / kernel.step))];
 }
 
 double RadialInstrument::lens(double r) const {
+  const UnitKernel& kernel = unit();
+  const double step = kernel.step / bandwidth_;
   double sum = 0.0;
-  for (int i = 0; i < kSteps && (i + 0.5) * step_ < 2.0 * r; ++i)
-    sum += value_[i] * ball_overlap_volume(r, r, (i + 0.5) * step_);
+  for (int i = 0; i < kSteps && (i + 0.5) * step < 2.0 * r; ++i)
+    sum += kernel.value[i] * ball_overlap_volume(r, r, (i + 0.5) * step);
   return sum;
 }
 

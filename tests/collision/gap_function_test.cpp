@@ -160,12 +160,10 @@ TEST(GapFunction, FastFormAgreesWithTheExactOne) {
         }
       }
       RecordProperty("spectrum_error", std::to_string(gap.interpolation_error()));
-                  const double allowed = oversampling < 1.8   ? 1e-3
-                                         : oversampling < 2.5 ? 8e-4
-                                                              : 5e-4;
-                  EXPECT_LT(value_error, allowed * value_scale);
-                  EXPECT_LT(slope_error, allowed * slope_scale);
-                  EXPECT_LT(spin_error, 3.0 * allowed * spin_scale);
+      const double allowed = oversampling < 1.8 ? 1e-3 : oversampling < 2.5 ? 8e-4 : 5e-4;
+      EXPECT_LT(value_error, allowed * value_scale);
+      EXPECT_LT(slope_error, allowed * slope_scale);
+      EXPECT_LT(spin_error, 3.0 * allowed * spin_scale);
     }
 }
 

@@ -3,8 +3,6 @@
 /// An instrument kernel that is the same in all directions, for bodies that turn.
 #pragma once
 
-#include <Eigen/Core>
-
 namespace mortise {
 
 /// K(x) >= 0 with Int K = 1 in three dimensions and no frequency above `bandwidth`: the square of
@@ -24,10 +22,6 @@ class RadialInstrument {
 
  private:
   double bandwidth_;
-  Eigen::VectorXd value_;      // K at (i + 1/2) step, times 4 pi r^2 step
-  Eigen::VectorXd transform_;  // at i bandwidth / (size - 1)
-  Eigen::VectorXd outside_;    // at i step
-  double step_ = 0.0;
 };
 
 }  // namespace mortise
