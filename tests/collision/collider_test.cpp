@@ -67,7 +67,7 @@ TEST(Collider, AnswersAreNeverWrong) {
       const Collider collider({fixed, cover}, {moving, cover}, {.tree_steps = steps});
       std::mt19937_64 random(3);
       Count count;
-      for (int i = 0; i < 600; ++i) {
+      for (int i = 0; i < 250; ++i) {
         const RigidMotion pose = random_pose(fixed_centre, moving_centre, 16.0, random);
         const double gap = separation(fixed, moving, pose);
         const Collision answer = collider(pose);
@@ -86,15 +86,11 @@ TEST(Collider, AnswersAreNeverWrong) {
         count.by_sum += answer.by == DecidedBy::kSum ? 1 : 0;
       }
       RecordProperty("no_" + std::to_string(steps), count.no);
-      std::printf(
-          "steps %d cover %g: no %d yes %d band %d by sum %d; tree band %g sum band %g growth %g\n",
-          steps, cover, count.no, count.yes, count.band, count.by_sum, collider.tree_band(),
-          collider.sum_band(), collider.growth());
       if (steps > 0) {
-        EXPECT_GT(count.no, 50);
+        EXPECT_GT(count.no, 40);
       }
       if (steps > 1000) {
-        EXPECT_GT(count.yes, 50);
+        EXPECT_GT(count.yes, 20);
       }
       if (steps > 1000 && cover == 0.0) {
         EXPECT_EQ(count.band, 0);  // exact
