@@ -6,18 +6,11 @@
 #include <memory>
 #include <span>
 
+#include "mortise/collision/collision_body.hpp"
 #include "mortise/collision/gap_function.hpp"
-#include "mortise/core/knots.hpp"
 #include "mortise/core/rigid_motion.hpp"
 
 namespace mortise {
-
-/// A body between two unions of balls: the balls lie in it, and grown by `cover` they hold it.
-/// Weights are not used. cover = 0: the body is the balls, and answers are exact.
-struct CollisionBody {
-  Knots balls;
-  double cover = 0.0;  ///< length unit; >= 0
-};
 
 enum class Contact {
   kNo,    ///< the interiors are certainly apart
