@@ -26,8 +26,8 @@ RadialKernel shape_kernel(const Channel& channel, double fixed_radius, double mo
   if (!(fixed_radius > 0.0) || !(moving_radius > 0.0))
     throw InputError("shape kernel: radii must be > 0, got " + std::to_string(fixed_radius) +
                      " and " + std::to_string(moving_radius));
-  // Window and k^2 vanish at the ends of the interval, so that the midpoint rule converges fast;
-  // the fastest oscillation, at the range, has 2.75 periods.
+  // Window and k^2 vanish at the ends of the interval, so that the midpoint rule converges fast: at
+  // the default cutoff the fastest oscillation, at the range, has 2.75 periods.
   constexpr int kNodes = 256;
   constexpr int kEntries = 2048;
   const double step = low_pass.cutoff / kNodes;
@@ -39,8 +39,8 @@ RadialKernel shape_kernel(const Channel& channel, double fixed_radius, double mo
                 channel.moving_transform(k, moving_radius) * low_pass(k) * 4.0 * std::numbers::pi *
                 k * k * step;
   }
-  RadialKernel kernel{2.75 / low_pass.cutoff, std::vector<double>(kEntries)};
-  const double taper = 2.25 / low_pass.cutoff;
+  RadialKernel kernel{channel.range + 1.15 / low_pass.cutoff, std::vector<double>(kEntries)};
+  const double taper = kernel.range - 0.5 / low_pass.cutoff;
   for (int i = 0; i < kEntries; ++i) {
     const double d = kernel.range * std::sqrt(i / (kEntries - 1.0));
     double sum = 0.0;

@@ -16,7 +16,7 @@ namespace mortise {
 using PoseObjective = std::function<PlacedScore(const RigidMotion& moving_in_fixed)>;
 
 struct PolishOptions {
-  int evaluations = 24;       ///< of the score, at most, for each pose; >= 1
+  int evaluations = 8;        ///< of the score, at most, for each pose; >= 1
   double first_step = 0.5;    ///< length of a pose's first trial step, RMSD of the moving body; > 0
   double longest_step = 1.0;  ///< of any step, likewise; > 0
   double tolerance = 0.02;    ///< a pose is done when its next step would be shorter; > 0

@@ -24,8 +24,8 @@ struct RadialKernel {
 ///   K(d) = weight Int fixed_transform(k, r) moving_transform(k, r') low_pass(k) exp(2 pi i k.d)
 ///   d^3k
 ///
-/// so that the channel scores Re sum_ij c_i d_j K(d_ij). K is cut at 2.75 / cutoff, the last half
-/// 1 / cutoff of it tapered: there it is below 1% of its values near by (docs/math.md).
+/// so that the channel scores Re sum_ij c_i d_j K(d_ij). K is cut 1.15 / cutoff past the channel's
+/// range, tapered over the last 0.5 / cutoff: little of it reaches there (docs/math.md).
 /// @throws InputError unless the low-pass ends at a finite cutoff > 0 and radii are > 0
 [[nodiscard]] RadialKernel shape_kernel(const Channel& channel, double fixed_radius,
                                         double moving_radius, const LowPass& low_pass);
