@@ -72,6 +72,9 @@ void add_dock_options(CLI::App& command, DockArguments& arguments) {
   };
   add_switch("--no-rescore", "Rank by shape alone",
              [](DockSettings& s) { s.options.rescore = false; });
+  add_switch("--polish", "Refine kept poses", [](DockSettings& s) { s.options.polish = true; });
+  add_switch("--no-polish", "Leave kept poses where the search found them",
+             [](DockSettings& s) { s.options.polish = false; });
   add_switch("--no-ligands", "Leave cofactors and other hetero groups out",
              [](DockSettings& s) { s.read.keep_ligands = false; });
   add_switch("--no-ions", "Leave ions out", [](DockSettings& s) { s.read.keep_ions = false; });
@@ -106,6 +109,7 @@ DockSettings parse_settings(const std::string& text) {
     for (const Field<std::string>& field : kTexts)
       field.of(settings.options) = json.at(field.key).get<std::string>();
     settings.options.rescore = json.at("rescore").get<bool>();
+    settings.options.polish = json.at("polish").get<bool>();
     settings.read.keep_ligands = json.at("ligands").get<bool>();
     settings.read.keep_ions = json.at("ions").get<bool>();
     if (!json.at("random_start").is_null())

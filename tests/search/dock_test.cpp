@@ -81,6 +81,7 @@ TEST(Docking, RanksByTheSumOfItsChannelsAndKeepsClustersApart) {
 TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   DockOptions options = quick();
   options.rescore = false;
+  options.polish = false;
   options.cluster_radius = 0.0;
   Docking docking(blob(200, 3), blob(100, 4), options);
   ASSERT_TRUE(docking.search().run());
@@ -90,6 +91,30 @@ TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   for (const Candidate& c : docking.search().candidates()) best = std::max(best, c.score);
   EXPECT_EQ(list.poses.at(0).score, best);
   EXPECT_EQ(list.poses.size(), 60U);
+}
+
+// On one scale, since the best of both lists come from the same smooth score: what polish reports
+// of its best pose is not below any pose's of the list that it started from.
+TEST(Docking, PolishRaisesTheBestScoreAndMergesPoses) {
+  for (const bool rescore : {true, false}) {
+    DockOptions options = quick();
+    options.rescore = rescore;
+    options.poses = 200;  // more than there are
+    const Molecule fixed = blob(300, 1), moving = blob(150, 2);
+    Docking polished(fixed, moving, options);
+    options.polish = false;
+    Docking plain(fixed, moving, options);
+    ASSERT_TRUE(plain.search().run());
+    ASSERT_TRUE(polished.search().run());
+    const PoseList after = polished.rank(), before = plain.rank();
+    EXPECT_EQ(after.channel_names, before.channel_names);
+    EXPECT_LT(after.poses.size(), before.poses.size());  // some fell into one minimum
+    EXPECT_GT(after.poses.size(), before.poses.size() / 2);
+    EXPECT_GT(after.poses[0].score, before.poses[0].score);
+    for (const Pose& pose : after.poses)
+      EXPECT_DOUBLE_EQ(pose.score,
+                       std::accumulate(pose.channels.begin(), pose.channels.end(), 0.0));
+  }
 }
 
 TEST(DockOptions, PresetsAndTheirErrors) {

@@ -25,8 +25,9 @@ struct DockOptions {
                             ///< exposed side chains; >= 0
   bool rescore = true;      ///< rank by shape plus contact potential instead of shape alone
   std::string potential =
-      {};            ///< file of the contact potential; empty = fitted_contact_potential()
-  int poses = 2000;  ///< poses reported; >= 1
+      {};              ///< file of the contact potential; empty = fitted_contact_potential()
+  bool polish = true;  ///< move each kept pose to the top of its score (polish.hpp)
+  int poses = 2000;    ///< poses reported, at most; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none
   int threads = 0;  ///< 0 = all cores; never changes the result
