@@ -26,7 +26,7 @@ TopoDS_Shape below_fracture(unsigned seed, double waves, double roughness) {
   constexpr int kPoles = 22;
   constexpr double kHalf = 26;
   constexpr int kSpans = kPoles - 3;
-  const auto knot = [](int i) {
+  const auto knot = [&](int i) {
     return -kHalf + 2 * kHalf * std::min(std::max(i, 0), kSpans) / double(kSpans);
   };
   const double phase_1 = uniform(random) * std::numbers::pi;
@@ -101,7 +101,7 @@ Pair broken_block(double /*clearance*/) {
   const TopoDS_Shape lower = below_fracture(1, 2.5, 1.4);
   p.fixed = common(block, lower);
   p.moving = cut(block, lower);
-  p.deviation = 0.04;
+  p.deviation = 0.06;
   return p;
 }
 
@@ -112,7 +112,7 @@ Pair broken_sphere(double /*clearance*/) {
   const TopoDS_Shape lower = below_fracture(2, 2, 1.4);
   p.fixed = common(ball({0, 0, 0}, 20), lower);
   p.moving = cut(ball({0, 0, 0}, 20), lower);
-  p.deviation = 0.04;
+  p.deviation = 0.06;
   return p;
 }
 

@@ -41,7 +41,7 @@ const std::vector<Entry> kEntries = {{round_peg, {0, 0.005, 0.02}},
                                      {ball_socket, {0, 0.02}},
                                      {hinge, {0, 0.02}},
                                      {spur_gears, {0.005, 0.02}},
-                                     {thread_nut, {0.005, 0.02}},
+                                     {thread_nut, {0.02}},
                                      {jigsaw, {0, 0.005}},
                                      {snap_hook, {0.005, 0.02}},
                                      {broken_block, {0}},
@@ -90,13 +90,12 @@ Json json_of(const Symmetry& s, const RigidMotion& frame) {
   return j;
 }
 
-void write_part(const TopoDS_Shape& mated, const std::string& stem, double deviation,
+void write_part(const TopoDS_Shape& mated, const std::string& stem, const Fineness& fineness,
                 const std::filesystem::path& folder) {
   const TopoDS_Shape shape = brep::moved(mated, frame_of(stem));
   const auto path = [&](const char* ending) { return (folder / (stem + ending)).string(); };
   write_file_atomically(path(".step"), brep::to_step({.shape = shape}));
-  const RepairResult repaired =
-      repair_mesh(brep::tessellate(shape, {.deviation = deviation, .angle = 0.35}));
+  const RepairResult repaired = repair_mesh(brep::tessellate(shape, fineness));
   for (const auto& line : repaired.decisions) std::cerr << stem << ": " << line << '\n';
   write_file_atomically(path(".stl"), format_stl(repaired.mesh));
   std::cerr << stem << ": " << repaired.mesh.size() << " triangles\n";
@@ -111,9 +110,10 @@ void make_all(const std::filesystem::path& folder, const std::string& only) {
       const Pair pair = entry.make(clearance);
       if (!only.empty() && pair.name != only) continue;
       const std::string fixed = pair.fixed_name + suffix(clearance);
-      write_part(pair.fixed, fixed, pair.deviation, folder);
+      const Fineness fineness{pair.deviation, pair.angle, pair.smallest};
+      write_part(pair.fixed, fixed, fineness, folder);
       if (written.insert(pair.moving_name).second)
-        write_part(pair.moving, pair.moving_name, pair.deviation, folder);
+        write_part(pair.moving, pair.moving_name, fineness, folder);
       const RigidMotion frame = frame_of(fixed);
       const RigidMotion pose = compose(frame, inverse(frame_of(pair.moving_name)));
       Json symmetries = Json::array();

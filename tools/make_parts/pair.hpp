@@ -27,10 +27,12 @@ struct Pair {
   std::string name;         ///< of the pair, without the clearance
   std::string fixed_name;   ///< stem of the fixed part, without the clearance
   std::string moving_name;  ///< stem of the moving part, the same at every clearance
-  TopoDS_Shape fixed;       ///< in mated position, mm; carries all of the clearance
-  TopoDS_Shape moving;
-  std::vector<Symmetry> symmetries;
+  TopoDS_Shape fixed = {};  ///< in mated position, mm; carries all of the clearance
+  TopoDS_Shape moving = {};
+  std::vector<Symmetry> symmetries = {};
   double deviation = 0.02;  ///< of the STL files, mm
+  double angle = 0.35;      ///< largest turn of their normals, radians
+  double smallest = 0.0;    ///< length below which no edge of them is split, mm
 };
 
 // Each takes the clearance as a part of the feature's size: the fixed part's hole is 1 + clearance

@@ -7,14 +7,22 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <cmath>
 #include <complex>
+#include <gp_Pln.hxx>
 #include <numbers>
 
 #include "pair.hpp"
@@ -163,6 +171,7 @@ TopoDS_Shape thread_solid(const Thread& thread) {
 
 Pair ball_socket(double clearance) {
   Pair p{.name = "ball_socket", .fixed_name = "ball_cup", .moving_name = "ball"};
+  p.deviation = 0.03;
   p.fixed = cut(box({-18, -18, -17}, {18, 18, 5}), ball({0, 0, 0}, 12 * (1 + clearance)));
   p.moving = ball({0, 0, 0}, 12);
   p.symmetries = {{.kind = "ball"}};
@@ -223,13 +232,16 @@ Pair spur_gears(double clearance) {
 
 Pair thread_nut(double clearance) {
   Pair p{.name = "thread_nut", .fixed_name = "nut", .moving_name = "bolt"};
+  p.deviation = 0.05;
+  p.angle = 1.2;  // the crests are round on a small scale
+  p.smallest = 0.7;
   const auto thread = [](double wide, double low, double high) {
-    return thread_solid({8 * wide, 0.8, 3, low, high});
+    return thread_solid({8 * wide, 1, 4, low, high});
   };
   p.fixed = cut(regular_prism(6, 13, 0, {0, 0, -6}, 12), thread(1 + clearance, -7.5, 7.5));
   p.moving = fuse(thread(1, -9, 15.5), regular_prism(6, 11, 0, {0, 0, 15}, 8));
   p.symmetries = {{.kind = "fold", .direction = Vector3d::UnitX(), .order = 2},
-                  {.kind = "screw", .pitch = 3, .from = -6 * pi, .to = 2 * pi}};
+                  {.kind = "screw", .pitch = 4, .from = -4.5 * pi, .to = 1.5 * pi}};
   return p;
 }
 

@@ -16,7 +16,7 @@ struct ReadPartOptions {
                             ///< bounding box's diagonal; > 0
   double absolute_deviation = 0.0;  ///< the same in the file's unit; 0 = use `deviation`
   double angle = 0.35;  ///< STEP: largest turn of the normal from triangle to triangle, radians
-  RepairOptions repair;
+  RepairOptions repair = {};
 };
 
 struct ReadPartResult {

@@ -51,7 +51,7 @@ TriangleMesh tessellate(const TopoDS_Shape& shape, const Fineness& fineness) {
   parameters.Angle = fineness.angle;
   parameters.Relative = Standard_False;
   parameters.InParallel = Standard_False;  // the same triangles on every machine
-  parameters.MinSize = 0.02 * fineness.deviation;
+  parameters.MinSize = std::max(fineness.smallest, 0.02 * fineness.deviation);
   const BRepMesh_IncrementalMesh mesher(shape, parameters);
 
   std::vector<Eigen::Vector3d> points;

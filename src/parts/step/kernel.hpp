@@ -13,6 +13,7 @@ namespace mortise {
 struct Fineness {
   double deviation = 0.0;  ///< largest distance from surface to triangles, unit of the file; > 0
   double angle = 0.5;      ///< largest turn of the normal between neighbours, radians
+  double smallest = 0.0;   ///< no edge is split below this length, unit of the file
 };
 
 /// Reads, moves and writes boundary representations. Calls are serialised inside.

@@ -98,6 +98,7 @@ std::string to_step(const UnitShape& part) {
     STEPControl_Writer writer;
     Interface_Static::SetCVal("write.step.schema", "AP214IS");
     Interface_Static::SetCVal("write.step.unit", unit_name);
+    Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // curves in space suffice
     Interface_Static::SetCVal("write.step.product.name", "part");
     if (writer.Transfer(part.shape, STEPControl_AsIs) != IFSelect_RetDone)
       throw InputError("write STEP: OpenCASCADE cannot represent this shape");
