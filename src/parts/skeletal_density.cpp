@@ -98,7 +98,7 @@ void check(const SkeletalDensityOptions& options) {
                        std::to_string(value));
   };
   within("thickness", options.thickness, 0.01, 4.0);
-  within("tolerance", options.tolerance, 1e-5, 0.1);
+  within("tolerance", options.tolerance, 0.005, 0.1);
   if (!std::isfinite(options.exterior) || !std::isfinite(options.penalty))
     throw InputError("skeletal_density: exterior and penalty must be finite");
 }
