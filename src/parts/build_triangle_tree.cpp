@@ -151,6 +151,7 @@ class Builder {
                                 : Vector3d(plain / static_cast<double>(range.size()));
     const Vector3d centre = items_[range.begin].middle + offset;
     Eigen::Matrix<double, kTreeMoments, 1> sum = Eigen::Matrix<double, kTreeMoments, 1>::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     double radius_sq = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int t = items_[i].triangle;
@@ -162,6 +163,7 @@ class Builder {
       const Eigen::Matrix3d S =
           (a * a.transpose() + b * b.transpose() + c * c.transpose() + 9.0 * s * s.transpose()) /
           24.0;
+      if (area > std::numeric_limits<double>::min()) covariance += 4.0 / area * n.norm() * S;
       Eigen::Matrix<double, kTreeMoments, 1> m;
       m << n, s[0] * n[0], s[1] * n[1], s[2] * n[2], s[0] * n[1] + s[1] * n[0],
           s[0] * n[2] + s[2] * n[0], s[1] * n[2] + s[2] * n[1],  //
@@ -178,6 +180,10 @@ class Builder {
       node.centre[d][p] = centre[d];
     }
     node.radius[p] = std::sqrt(radius_sq);
+    const Eigen::Matrix3d& C = covariance;
+    Eigen::Matrix<double, 6, 1> spread;
+    spread << C(0, 0), C(1, 1), C(2, 2), 2 * C(0, 1), 2 * C(0, 2), 2 * C(1, 2);
+    for (int k = 0; k < 6; ++k) node.spread[k][p] = spread[k];
     for (int m = 0; m < kTreeMoments; ++m) node.moments[m][p] = sum[m];
   }
 

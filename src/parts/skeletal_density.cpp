@@ -67,8 +67,11 @@ SkeletalKernel make_kernel(double sigma, double tolerance) {
   kernel.sigma = sigma;
   // What is left out is a share of the peak below tolerance / 30 over at most the whole sphere.
   kernel.longest = 1.0 + sigma * std::sqrt(2.0 * std::log(30.0 / tolerance));
-  // The moments leave out third order.
-  kernel.reach = 0.6 * std::cbrt(tolerance / 0.01);
+  // One cluster at its worst may err by the tolerance; the errors of many largely cancel, the more
+  // so the thinner the shell of surface that counts. Chosen by the largest errors of a sweep of
+  // shapes.
+  kernel.allowed = tolerance * std::clamp(0.4 / sigma, 1.0, 5.0);
+  kernel.allowed_degree_five = std::sqrt(2.0 * kernel.allowed);
   kernel.middle = 0.5 * (1.0 + 1.0 / kernel.longest);
   kernel.half = 0.5 * (1.0 - 1.0 / kernel.longest);
   constexpr int kSamples = 2 * kSkeletalTerms;
@@ -95,7 +98,7 @@ void check(const SkeletalDensityOptions& options) {
                        std::to_string(value));
   };
   within("thickness", options.thickness, 0.01, 4.0);
-  within("tolerance", options.tolerance, 1e-5, 0.1);
+  within("tolerance", options.tolerance, 0.005, 0.1);
   if (!std::isfinite(options.exterior) || !std::isfinite(options.penalty))
     throw InputError("skeletal_density: exterior and penalty must be finite");
 }

@@ -60,14 +60,17 @@ struct Query {
   return {(1.0 - t * t) * g, -2.0 * t * g};
 }
 
-// What a cluster or triangle with its centre at t and this radius needs: nothing, as it is too far;
-// its moments, as the kernel hardly changes over it; or a closer look.
+// What a cluster or triangle needs: nothing, as it is too far; second order in its size, as the
+// kernel hardly changes over it; or a closer look.
 struct Verdict {
-  LaneMask far, smooth;
+  LaneMask far;
+  Lanes error;  // of second order, in units of the kernel's peak
 };
 
-[[gnu::always_inline]] inline Verdict judge(const Query& query, const Lanes& t,
-                                            const Lanes& radius) {
+// A cluster with its centre at t, within a ball of this radius about it, and with this mean square
+// extent along the line of sight.
+[[gnu::always_inline]] inline Verdict judge(const Query& query, const Lanes& t, const Lanes& radius,
+                                            const Lanes& depth_sq) {
   const Lanes nearest = t - radius;
   const Lanes x = (larger(nearest, all(1.0)) - 1.0) * query.inverse_sigma;
   // Where the Gaussian is small the same share of the peak allows wider clusters: exp(x^2 / 6),
@@ -75,8 +78,11 @@ struct Verdict {
   Lanes growth = 1.0 + x * x * (1.0 / 24);
   growth *= growth;
   growth *= growth;
-  const Lanes allowed = query.kernel.reach * smaller(query.kernel.sigma * growth, 0.5 * t);
-  return {nearest > query.kernel.longest, radius <= allowed};
+  const Lanes change = smaller(query.kernel.sigma * growth, 0.4 * t);
+  // t changes over the cluster by a along the line of sight and by b across it; a^2 and b are kept.
+  const Lanes a = root(depth_sq) / change, b = 0.25 * radius * radius / (t * change);
+  const Lanes error = a * b + 0.5 * b * b + a * a * a * (1.0 / 6);
+  return {nearest > query.kernel.longest, radius < 0.7 * t ? error : all(1e30)};
 }
 
 // Int_t^longest of the kernel.
@@ -185,8 +191,40 @@ Plain whole_triangle(const Query& query, const TrianglePacket& packet, int l) {
   return {h * result.re, h * result.im};
 }
 
-[[gnu::always_inline]] inline Lanes3 middle_of(const Lanes3& a, const Lanes3& b) {
-  return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)};
+// Rules for triangles: degree 2 by the middles of the edges, degree 5 by Radon's seven points.
+// Weights of the second and third corner, share of the area.
+struct RulePoint {
+  double second, third, share;
+};
+constexpr RulePoint kDegreeTwo[] = {{0.5, 0.0, 1.0 / 3}, {0.5, 0.5, 1.0 / 3}, {0.0, 0.5, 1.0 / 3}};
+constexpr double kNear = 0.10128650732345634, kNearShare = 0.12593918054482715;
+constexpr double kWide = 0.47014206410511509, kWideShare = 0.13239415278850618;
+constexpr RulePoint kDegreeFive[] = {{1.0 / 3, 1.0 / 3, 0.225},
+                                     {kNear, kNear, kNearShare},
+                                     {1.0 - 2 * kNear, kNear, kNearShare},
+                                     {kNear, 1.0 - 2 * kNear, kNearShare},
+                                     {kWide, kWide, kWideShare},
+                                     {1.0 - 2 * kWide, kWide, kWideShare},
+                                     {kWide, 1.0 - 2 * kWide, kWideShare}};
+
+template <int N>
+[[gnu::always_inline]] inline void add_rule(const Query& query, const RulePoint (&rule)[N],
+                                            const Lanes3& a, const Lanes3& e1, const Lanes3& e2,
+                                            const LaneMask& counted, Complex& total) {
+  const Lanes3 area = cross(e1, e2);  // normal times twice the area
+  Complex value = {};
+  for (const RulePoint& p : rule) {
+    const Lanes3 x = {a.x + p.second * e1.x + p.third * e2.x,
+                      a.y + p.second * e1.y + p.third * e2.y,
+                      a.z + p.second * e1.z + p.third * e2.z};
+    const Lanes t = root(dot(x, x));
+    const Complex k = kernel_at(query, t);
+    const Lanes w = 0.5 * p.share * dot(x, area) / t;
+    value.re += k.re * w;
+    value.im += k.im * w;
+  }
+  total.re += counted ? value.re : all(0.0);
+  total.im += counted ? value.im : all(0.0);
 }
 
 void add_packet(const Query& query, const TrianglePacket& packet, Complex& total, Plain& large) {
@@ -200,36 +238,26 @@ void add_packet(const Query& query, const TrianglePacket& packet, Complex& total
       v->y *= query.scale;
       v->z *= query.scale;
     }
-    const Lanes3 b = {a.x + e1.x, a.y + e1.y, a.z + e1.z}, c = {a.x + e2.x, a.y + e2.y, a.z + e2.z};
-    const Lanes3 centre = {(a.x + b.x + c.x) * (1.0 / 3), (a.y + b.y + c.y) * (1.0 / 3),
-                           (a.z + b.z + c.z) * (1.0 / 3)};
-    const Lanes3 to_a = minus(a, centre), to_b = minus(b, centre), to_c = minus(c, centre);
+    const Lanes3 to_a = {(e1.x + e2.x) * (-1.0 / 3), (e1.y + e2.y) * (-1.0 / 3),
+                         (e1.z + e2.z) * (-1.0 / 3)};  // from the centre
+    const Lanes3 centre = minus(a, to_a);
+    const Lanes3 to_b = {to_a.x + e1.x, to_a.y + e1.y, to_a.z + e1.z};
+    const Lanes3 to_c = {to_a.x + e2.x, to_a.y + e2.y, to_a.z + e2.z};
     const Lanes radius = root(larger(larger(dot(to_a, to_a), dot(to_b, to_b)), dot(to_c, to_c)));
-    const Verdict verdict = judge(query, root(dot(centre, centre)), radius);
-    const unsigned real = ((1u << packet.count) - 1) >> l & ((1u << kLanes) - 1);
-    const unsigned wanted = ~bits(verdict.far) & real;
-    const unsigned small = wanted & bits(verdict.smooth);
-    if (small != 0) {
-      const Lanes3 twice_area = cross(e1, e2);
-      Complex value = {};
-      const Lanes3 middles[] = {middle_of(a, b), middle_of(b, c), middle_of(c, a)};
-      for (const Lanes3& x : middles) {
-        const Lanes t_sq = dot(x, x), t = root(t_sq);
-        const Complex k = kernel_at(query, t);
-        const Lanes w = dot(x, twice_area) / t;
-        value.re += k.re * w;
-        value.im += k.im * w;
-      }
-      const LaneMask counted = (verdict.far == 0) & (verdict.smooth != 0);
-      for (int k = 0; k < kLanes; ++k) {
-        const bool here = (small >> k & 1u) != 0 && counted[k] != 0;
-        value.re[k] = here ? value.re[k] : 0.0;
-        value.im[k] = here ? value.im[k] : 0.0;
-      }
-      total.re += value.re * (1.0 / 6);
-      total.im += value.im * (1.0 / 6);
-    }
-    for (unsigned rest = wanted & ~small; rest != 0; rest &= rest - 1) {
+    const Lanes t_sq = dot(centre, centre);
+    const Lanes depth_a = dot(to_a, centre), depth_b = dot(to_b, centre),
+                depth_c = dot(to_c, centre);
+    const Lanes depth_sq =
+        (depth_a * depth_a + depth_b * depth_b + depth_c * depth_c) / (12.0 * t_sq);
+    const Verdict verdict = judge(query, root(t_sq), radius, depth_sq);
+    Lanes number;
+    for (int k = 0; k < kLanes; ++k) number[k] = l + k;
+    const LaneMask wanted = ~verdict.far & (number < static_cast<double>(packet.count));
+    const LaneMask small = wanted & (verdict.error <= query.kernel.allowed);
+    const LaneMask middling = wanted & ~small & (verdict.error <= query.kernel.allowed_degree_five);
+    if (bits(small) != 0) add_rule(query, kDegreeTwo, a, e1, e2, small, total);
+    if (bits(middling) != 0) add_rule(query, kDegreeFive, a, e1, e2, middling, total);
+    for (unsigned rest = bits(wanted & ~small & ~middling); rest != 0; rest &= rest - 1) {
       const Plain value = whole_triangle(query, packet, l + __builtin_ctz(rest));
       large.re += value.re;
       large.im += value.im;
@@ -296,14 +324,21 @@ void integrate_at(const TreeView& tree, const Query& query, double* result) {
       r.y *= query.scale;
       r.z *= query.scale;
       const Lanes t = root(dot(r, r));
-      const Verdict verdict = judge(query, t, load(node.radius + l) * query.scale);
+      Lanes c[6];
+      for (int k = 0; k < 6; ++k) c[k] = load(node.spread[k] + l);
+      const Lanes along_sq = r.x * (c[0] * r.x + c[3] * r.y + c[4] * r.z) +
+                             r.y * (c[1] * r.y + c[5] * r.z) + c[2] * r.z * r.z;
+      const double scale_sq = query.scale * query.scale;
+      const Lanes depth_sq = larger(along_sq * scale_sq / dot(r, r), all(0.0));
+      const Verdict verdict = judge(query, t, load(node.radius + l) * query.scale, depth_sq);
+      const LaneMask smooth_lanes = verdict.error <= query.kernel.allowed;
       const unsigned there = ((1u << node.count) - 1) >> l & ((1u << kLanes) - 1);
       const unsigned wanted = ~bits(verdict.far) & there;
-      const unsigned smooth = wanted & bits(verdict.smooth);
+      const unsigned smooth = wanted & bits(smooth_lanes);
       open |= (wanted & ~smooth) << l;
       if (smooth == 0) continue;
       const Complex value = by_moments(query, node, l, r, t);
-      const LaneMask counted = ~verdict.far & verdict.smooth;
+      const LaneMask counted = ~verdict.far & smooth_lanes;
       total.re += counted ? value.re : all(0.0);
       total.im += counted ? value.im : all(0.0);
     }

@@ -39,6 +39,9 @@ struct alignas(64) TreeNode {
   double high[3][kTreeWidth];
   double centre[3][kTreeWidth];  ///< centroid of the child's surface
   double radius[kTreeWidth];     ///< of a ball about it that holds the child's triangles
+  /// Covariance of the child's surface as a quadratic form by r_x^2, r_y^2, r_z^2, r_x r_y, r_x
+  /// r_z, r_y r_z: how far it spreads along r.
+  double spread[6][kTreeWidth];
   double moments[kTreeMoments][kTreeWidth];
   int child[kTreeWidth];  ///< a node if >= 0, else packet -1 - child
   int count;              ///< children there are, the first ones
