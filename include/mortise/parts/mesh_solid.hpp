@@ -29,7 +29,8 @@ struct NearestPoints {
 };
 
 /// A triangle mesh as a solid. Inside is where the winding number is above 1/2: for a closed mesh
-/// whose triangles face outward the usual inside; overlapping shells unite; the holes of an open
+/// whose triangles face outward the usual inside; overlapping shells unite (but
+/// distances are to the mesh, buried parts of it included); the holes of an open
 /// mesh are closed by a surface without creases.
 ///
 /// Holds the mesh and a search tree of about 300 bytes per triangle; copies share both. Safe to
