@@ -14,6 +14,7 @@
 #include "mortise/parts/sample_surface.hpp"
 #include "mortise/search/cluster.hpp"
 #include "search/mate_contact.hpp"
+#include "search/mate_directions.hpp"
 
 namespace mortise {
 namespace {
@@ -25,11 +26,15 @@ void check_options(const MateOptions& o) {
       refuse(std::string(name) + " must be > 0 and finite, got " + std::to_string(value));
   };
   if (o.rotations < 1) refuse("rotations must be >= 1, got " + std::to_string(o.rotations));
+  if (o.aligned < 0 || o.turns < 0)
+    refuse("aligned and turns must be >= 0, got " + std::to_string(o.aligned) + " and " +
+           std::to_string(o.turns));
   positive("spacing", o.spacing);
   positive("skin", o.skin);
   positive("detail", o.detail);
   positive("tolerance", o.tolerance);
   if (!(o.penalty > 1.0)) refuse("penalty must be > 1, got " + std::to_string(o.penalty));
+  if (!(o.feature >= 0.0)) refuse("feature must be >= 0, got " + std::to_string(o.feature));
   if (!(o.flat >= 0.0 && o.flat <= 1.0))
     refuse("flat must be 0 to 1, got " + std::to_string(o.flat));
   if (!(o.overlap >= 0.0)) refuse("overlap must be >= 0, got " + std::to_string(o.overlap));
@@ -54,7 +59,7 @@ Knots skin_knots(const DistanceField& field, const SampledSkinOptions& options) 
       for (double z = 0.5 * options.spacing; z < extent[2]; z += options.spacing) {
         const Eigen::Vector3d node = low + Eigen::Vector3d(x, y, z);
         const float d = field.at(node.cast<float>(), gradient);
-        if (d > options.offset + options.spacing) continue;
+        if (d > options.offset + options.spacing) continue;  // and kFar
         nodes.push_back(node);
         distances.push_back(d);
       }
@@ -182,14 +187,21 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   const double margin =
       std::max((options.skin + 2.0 * options.spacing) * unit, 16.0 * options.tolerance * unit);
   const auto body = [&](const MatePart& part, const SurfaceSamples& samples) {
-    return ContactBody(samples,
-                       DistanceField(*part.solid, options.detail * unit, margin, options.threads),
-                       part.solid->bounds().center());
+    // As fine as asked, but for a part so much the larger that its grid would not fit.
+    constexpr double kMostNodes = 1.2e7;
+    const Eigen::AlignedBox3d box = part.solid->bounds();
+    const double volume = (box.sizes().array() + 2.0 * margin).prod();
+    const double step = std::max(options.detail * unit, std::cbrt(volume / kMostNodes));
+    return ContactBody(samples, DistanceField(*part.solid, step, margin, options.threads),
+                       box.center());
   };
   impl_->pair =
       std::make_unique<ContactPair>(body(fixed, fixed_samples), body(moving, moving_samples));
-  const SampledSkinOptions skin{
-      .spacing = options.spacing * unit, .offset = options.skin * unit, .penalty = options.penalty};
+  const SampledSkinOptions skin{.spacing = options.spacing * unit,
+                                .offset = options.skin * unit,
+                                .penalty = options.penalty,
+                                .feature = options.feature,
+                                .feature_radius = 2.0 * options.skin * unit};
   impl_->fixed_knots = skin_knots(impl_->pair->fixed().field, skin);
   impl_->moving_knots = skin_knots(impl_->pair->moving().field, skin);
   SearchOptions search;
@@ -200,13 +212,27 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   search.threads = options.threads;
   const std::vector<Channel> channels{
       sampled_channel("skin", 1.0, impl_->fixed_knots, impl_->moving_knots, skin.spacing)};
+  // The search's frame depends on the knots alone: a search on a coarse grid tells it.
+  SearchOptions coarse = search;
+  coarse.spacing = 4.0 * search.spacing;
+  const Eigen::Quaterniond search_from_fixed =
+      RotationSearch(channels, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0), coarse)
+          .search_from_fixed()
+          .rotation;
   if (options.axis) {
-    // The search's frame is known once it is made.
-    const RotationSearch probe(channels, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0), search);
-    impl_->rotations =
-        axial_rotations(*options.axis, options.rotations, probe.search_from_fixed().rotation);
+    impl_->rotations = axial_rotations(*options.axis, options.rotations, search_from_fixed);
   } else {
     impl_->rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
+    const Eigen::Matrix4Xd aligned = aligned_rotations(
+        find_directions(fixed.mesh), find_directions(moving.mesh), options.turns, options.aligned);
+    const Eigen::Index regular = impl_->rotations.size();
+    impl_->rotations.quaternions.conservativeResize(4, regular + aligned.cols());
+    for (Eigen::Index i = 0; i < aligned.cols(); ++i) {
+      const Eigen::Quaterniond q =
+          canonical(search_from_fixed *
+                    Eigen::Quaterniond(aligned(0, i), aligned(1, i), aligned(2, i), aligned(3, i)));
+      impl_->rotations.quaternions.col(regular + i) << q.w(), q.x(), q.y(), q.z();
+    }
   }
   impl_->search = std::make_unique<RotationSearch>(channels, impl_->rotations.quaternions, search);
 }
@@ -242,7 +268,8 @@ PoseList Mating::rank() const {
   const auto keep = static_cast<std::size_t>(run.options.polished);
   const auto as_it_is = [](const RigidMotion& m) { return m; };
   // Coarse to fine, few points to many, many placements to few.
-  placed = run.sieve(std::move(placed), as_it_is, 4.0 * tolerance, 0.15, 0.0, 20 * keep);
+  placed = run.sieve(std::move(placed), as_it_is, 4.0 * tolerance, 0.15, run.options.cluster_radius,
+                     20 * keep);
   placed = run.sieve(
       std::move(placed),
       [&](const RigidMotion& m) {

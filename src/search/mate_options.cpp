@@ -11,14 +11,14 @@ MateOptions mate_preset(const std::string& name) {
   MateOptions options;
   if (name == "default") return options;
   if (name == "fast") {
-    options.rotations = 1800;
-    options.spacing = 0.05;
+    options.rotations = 600;
+    options.spacing = 0.04;
     return options;
   }
   if (name == "thorough") {
-    options.rotations = 14400;
-    options.spacing = 0.03;
-    options.polished = 1000;
+    options.rotations = 7200;
+    options.spacing = 0.02;
+    options.polished = 500;
     return options;
   }
   throw InputError("preset '" + name + "' is not one of fast, default, thorough");
@@ -30,12 +30,15 @@ std::string to_json(const MateOptions& o) {
   };
   nlohmann::ordered_json json = {
       {"rotations", o.rotations},
+      {"aligned", o.aligned},
+      {"turns", o.turns},
       {"axis", nullptr},
       {"spacing", o.spacing},
       {"per_rotation", o.per_rotation},
       {"separation", o.separation},
       {"skin", o.skin},
       {"penalty", o.penalty},
+      {"feature", o.feature},
       {"detail", o.detail},
       {"tolerance", o.tolerance},
       {"flat", o.flat},
