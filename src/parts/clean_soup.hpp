@@ -2,6 +2,8 @@
 // Repairs that look at points and single triangles: equal points, triangles without area.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
