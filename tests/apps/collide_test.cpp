@@ -82,14 +82,14 @@ TEST_F(PartPrograms, AssembleFollowsAPathAndLetsGo) {
 
 TEST_F(PartPrograms, BadInputIsNamed) {
   std::ofstream(path("bad.csv")) << "qw,qx,qy,qz,tx,ty\n1,0,0,0,0,0\n";
-  Outcome outcome = run("collide cube.obj cube.obj --poses bad.csv");
+  Outcome outcome = mortise("collide cube.obj cube.obj --poses bad.csv");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.error, AllOf(HasSubstr("bad.csv:1"), HasSubstr("column tz")));
   std::ofstream(path("worse.csv")) << "qw,qx,qy,qz,tx,ty,tz\n1,0,0,0,0,0,zero\n";
-  outcome = run("collide cube.obj cube.obj --poses worse.csv");
+  outcome = mortise("collide cube.obj cube.obj --poses worse.csv");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.error, AllOf(HasSubstr("worse.csv:2"), HasSubstr("\"zero\"")));
-  outcome = run("assemble cube.obj cube.obj");
+  outcome = mortise("assemble cube.obj cube.obj");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("--path or --goal"));
 }
