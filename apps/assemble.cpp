@@ -62,8 +62,11 @@ Session make_session(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const ReadPartResult fixed = read_part(options.fixed), moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
-  AssemblySession session(double_skin_field(MeshSolid(fixed.mesh, solid), options.field),
-                          double_skin_field(MeshSolid(moving.mesh, solid), options.field),
+  const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
+  PartFieldOptions field = options.field;
+  if (field.thickness == 0.0)
+    field.thickness = std::min(default_thickness(first), default_thickness(second));
+  AssemblySession session(double_skin_field(first, field), double_skin_field(second, field),
                           options.assembly);
   return {std::move(session),
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
@@ -291,8 +294,9 @@ void add_assemble(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(8, 1024));
   command
-      ->add_option("--thickness", options->field.thickness,
-                   "Skin in which parts attract each other, unit of the files; 0 = 3 nodes")
+      ->add_option(
+          "--thickness", options->field.thickness,
+          "Skin in which parts attract each other, unit of the files; 0 = 0.15 of the smaller part")
       ->capture_default_str();
   command
       ->add_option("--penalty", options->field.penalty, "What overlap costs against what fit gains")

@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  mortise::app::add_assemble(program);
   mortise::app::add_benchmark(program);
+  mortise::app::add_collide(program);
   mortise::app::add_dock(program);
   mortise::app::add_evaluate(program);
   mortise::app::add_export(program);

@@ -2,6 +2,7 @@
 // The C interface: everything C++ throws becomes a code and a message.
 #include "mortise/assembly/mortise_wrench.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <string>
@@ -64,9 +65,14 @@ int mortise_session_create(const mortise_mesh* fixed, const mortise_mesh* moving
     if (asked.thickness != 0.0) field.thickness = asked.thickness;
     if (asked.penalty != 0.0) field.penalty = asked.penalty;
     if (asked.modes != 0) assembly.modes = asked.modes;
-    *session = new mortise_session{mortise::AssemblySession(
-        mortise::double_skin_field(solid(fixed, "fixed", asked.threads), field),
-        mortise::double_skin_field(solid(moving, "moving", asked.threads), field), assembly)};
+    const mortise::MeshSolid first = solid(fixed, "fixed", asked.threads),
+                             second = solid(moving, "moving", asked.threads);
+    if (!(field.thickness > 0.0))
+      field.thickness =
+          std::min(mortise::default_thickness(first), mortise::default_thickness(second));
+    *session = new mortise_session{
+        mortise::AssemblySession(mortise::double_skin_field(first, field),
+                                 mortise::double_skin_field(second, field), assembly)};
   });
 }
 

@@ -14,6 +14,8 @@
 
 namespace mortise {
 
+double default_thickness(const Solid& solid) { return 0.15 * solid.bounds().sizes().maxCoeff(); }
+
 BodyDensity double_skin_field(const Solid& solid, const PartFieldOptions& options) {
   if (options.grid < 8)
     throw InputError("double_skin_field: grid must be >= 8, got " + std::to_string(options.grid));
@@ -24,9 +26,7 @@ BodyDensity double_skin_field(const Solid& solid, const PartFieldOptions& option
     throw InputError("double_skin_field: thickness must be >= 0, got " +
                      std::to_string(options.thickness));
   const Eigen::AlignedBox3d box = solid.bounds();
-  const double thickness = options.thickness > 0.0
-                               ? options.thickness
-                               : 3.0 * box.sizes().maxCoeff() / (options.grid - 7);
+  const double thickness = options.thickness > 0.0 ? options.thickness : default_thickness(solid);
   const GridNodes nodes = grid_around(box, options.grid, thickness);
   const double step = nodes.spacing;
   const DistanceGrid distance =

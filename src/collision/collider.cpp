@@ -132,29 +132,29 @@ Collider& Collider::operator=(Collider&&) noexcept = default;
 Collision Collider::operator()(const RigidMotion& pose) const {
   const State& s = *state_;
   Collision answer;
-  bool known = false;
-  if (s.options.tree_steps > 0) {
-    answer.by = DecidedBy::kTree;
-    switch (BallTree::compare(s.fixed, s.moving, pose, s.options.tree_steps)) {
-      case BallTree::Verdict::kApart:
-        answer.contact = Contact::kNo, known = true;
-        break;
-      case BallTree::Verdict::kMeet:
-        answer.contact = Contact::kYes, known = true;
-        break;
-      case BallTree::Verdict::kBetween:
-      case BallTree::Verdict::kStopped:
-        break;
-    }
-  }
+  const BallTree::Verdict verdict =
+      s.options.tree_steps > 0 ? BallTree::compare(s.fixed, s.moving, pose, s.options.tree_steps)
+                               : BallTree::Verdict::kStopped;
+  const bool known = verdict == BallTree::Verdict::kApart || verdict == BallTree::Verdict::kMeet;
   if (s.options.with_gap || !known) answer.gap = (*s.gap)(pose);
-  if (!known) {
-    answer.by = DecidedBy::kSum;
-    const double value = std::abs(answer.gap.value - s.threshold) > s.sum_error
-                             ? answer.gap.value
-                             : s.gap->exact(pose).value;  // too close for single precision
-    answer.contact = value < s.threshold ? Contact::kNo : Contact::kBand;
+  if (known) {
+    answer.contact = verdict == BallTree::Verdict::kMeet ? Contact::kYes : Contact::kNo;
+    answer.by = DecidedBy::kTree;
+    return answer;
   }
+  answer.by = DecidedBy::kSum;
+  double value = answer.gap.value;
+  if (std::abs(value - s.threshold) <= s.sum_error) {
+    // Too close for single precision. Where the trees have said how close, that is all one needs.
+    if (verdict == BallTree::Verdict::kBetween) {
+      answer.by = DecidedBy::kTree;
+      return answer;
+    }
+    value = s.gap->exact(pose).value;
+  }
+  answer.contact = value < s.threshold ? Contact::kNo : Contact::kBand;
+  if (answer.contact == Contact::kBand && verdict == BallTree::Verdict::kBetween)
+    answer.by = DecidedBy::kTree;
   return answer;
 }
 

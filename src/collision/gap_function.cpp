@@ -90,7 +90,7 @@ GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
                      std::to_string(2.0 * reach) + ", got " + std::to_string(options.box));
   s.box = options.box > 0.0 ? options.box : std::max(2.0 * reach, 1e-300);
 
-  const int half = options.max_modes / 2 + 1;
+  const int half = (options.max_modes + 1) / 2;
   const int modes_reach = State::reach_of(
       options.order == ModeOrder::kEnergy ? 4 * half : half);  // energy has to choose from more
   const int side = 2 * (modes_reach + 1);

@@ -45,7 +45,7 @@ struct GapFunction::State {
   }
   [[nodiscard]] int half_count(int asked) const {
     const int all = static_cast<int>(modes.size());
-    return asked <= 0 ? all : std::min(all, asked / 2 + 1);
+    return asked <= 0 ? all : std::min(all, (asked + 1) / 2);
   }
   [[nodiscard]] GapValue finish(const RigidMotion& pose, double value, const Eigen::Vector3d& slope,
                                 const Eigen::Vector3d& spin) const;

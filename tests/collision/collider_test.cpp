@@ -64,10 +64,11 @@ TEST(Collider, AnswersAreNeverWrong) {
               moving = random_knots(40, 4.0, moving_centre, 2);
   for (const int steps : {30, 20000})
     for (const double cover : {0.0, 0.5}) {
-      const Collider collider({fixed, cover}, {moving, cover}, {.tree_steps = steps});
+      const Collider collider({fixed, cover}, {moving, cover},
+                              {.modes = 1000, .tree_steps = steps});
       std::mt19937_64 random(3);
       Count count;
-      for (int i = 0; i < 250; ++i) {
+      for (int i = 0; i < 150; ++i) {
         const RigidMotion pose = random_pose(fixed_centre, moving_centre, 16.0, random);
         const double gap = separation(fixed, moving, pose);
         const Collision answer = collider(pose);
@@ -87,10 +88,10 @@ TEST(Collider, AnswersAreNeverWrong) {
       }
       RecordProperty("no_" + std::to_string(steps), count.no);
       if (steps > 0) {
-        EXPECT_GT(count.no, 40);
+        EXPECT_GT(count.no, 20);
       }
       if (steps > 1000) {
-        EXPECT_GT(count.yes, 20);
+        EXPECT_GT(count.yes, 10);
       }
       if (steps > 1000 && cover == 0.0) {
         EXPECT_EQ(count.band, 0);  // exact
@@ -104,7 +105,7 @@ TEST(Collider, TheSumAloneKeepsItsPromise) {
   const Collider collider({ball, 0.0}, {ball, 0.0}, {.modes = 20000, .tree_steps = 0});
   ASSERT_LT(collider.sum_band(), 2.5);
   int no = 0;
-  for (double d = 0.0; d < 2.0 + 2.0 * collider.sum_band(); d += 0.02) {
+  for (double d = 0.0; d < 2.0 + 2.0 * collider.sum_band(); d += 0.05) {
     RigidMotion pose;
     pose.translation = d * Eigen::Vector3d(0.48, 0.6, 0.64);
     const Collision answer = collider(pose);
@@ -116,7 +117,7 @@ TEST(Collider, TheSumAloneKeepsItsPromise) {
       EXPECT_LE(d, 2.0 + collider.sum_band());
     }
   }
-  EXPECT_GT(no, 20);
+  EXPECT_GT(no, 10);
 }
 
 TEST(Collider, RefusesBadInput) {

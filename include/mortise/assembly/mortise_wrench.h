@@ -28,7 +28,7 @@ typedef struct mortise_mesh {
 typedef struct mortise_session_options {
   int grid;         /**< nodes along a part's longest side [128] */
   int modes;        /**< retained modes m', more make contact harder [4096] */
-  double thickness; /**< skin in which parts attract, length unit [3 nodes of each grid] */
+  double thickness; /**< skin in which parts attract, length unit [0.15 of the smaller part] */
   double penalty;   /**< p, what overlap costs against what fit gains [3] */
   int threads;      /**< for the making [all cores] */
 } mortise_session_options;

@@ -10,10 +10,13 @@ namespace mortise {
 
 struct PartFieldOptions {
   int grid = 128;          ///< nodes along the longest side of the part's box and its skin; >= 8
-  double thickness = 0.0;  ///< skin outside the part, length unit; 0 = 3 nodes of the grid
+  double thickness = 0.0;  ///< skin outside the part, length unit; 0 = default_thickness(solid)
   double penalty = 3.0;    ///< p, what overlap costs against what fit gains; > 0
   int threads = 0;         ///< 0 = all cores; never changes the result
 };
+
+/// 0.15 of the longest side. Give both parts of a pair the smaller one's.
+[[nodiscard]] double default_thickness(const Solid& solid);
 
 /// The double skin from signed distances d: i (skin(d) - p core(d)) [SD, Eq. 51], with core a ramp
 /// from 0 at d = 0 to 1 one grid step inside, skin a raised cosine over 0 < d < thickness. Then Re

@@ -19,11 +19,11 @@ enum class Contact {
 };
 
 /// What settled it.
-enum class DecidedBy { kBounds, kTree, kSum };
+enum class DecidedBy { kTree, kSum };
 
 struct Collision {
   Contact contact = Contact::kBand;
-  DecidedBy by = DecidedBy::kBounds;
+  DecidedBy by = DecidedBy::kTree;
   GapValue gap;  ///< of the grown bodies, smoothed; zero unless asked for
 };
 
