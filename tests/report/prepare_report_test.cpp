@@ -20,7 +20,7 @@ std::vector<double> sizes_of(const Run& run) {
 
 // Three poses near each other, one far away, one near the first again.
 Run five_poses(const ReportBodies& bodies) {
-  Run run = report_run(bodies, 5);
+  mortise::Run run = report_run(bodies, 5);
   const double x[] = {0.0, 1.0, 2.0, 40.0, 0.5};
   for (std::size_t i = 0; i < 5; ++i) {
     run.poses.poses[i].moving_in_fixed = {Eigen::Quaterniond::Identity(), {x[i], 0.0, 0.0}};
@@ -31,7 +31,7 @@ Run five_poses(const ReportBodies& bodies) {
 
 TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
   const ReportBodies bodies = protease();
-  const Run shown = prepare_report(five_poses(bodies), bodies, {.cluster_radius = 1.2});
+  const mortise::Run shown = prepare_report(five_poses(bodies), bodies, {.cluster_radius = 1.2});
   EXPECT_THAT(sizes_of(shown), ElementsAre(3, 3, 1, 1, 3));
   EXPECT_EQ(shown.poses.poses[4].cluster, 0);
   EXPECT_EQ(shown.poses.poses[3].cluster, 2);
@@ -39,7 +39,7 @@ TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
 
 TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
   const ReportBodies bodies = protease();
-  Run run = five_poses(bodies);
+  mortise::Run run = five_poses(bodies);
   EXPECT_THAT(sizes_of(prepare_report(run, bodies, {.cluster_radius = 0.0})), Each(1.0));
   // All alone: clustered anew with a tenth of the diameter, about 5 angstrom.
   EXPECT_THAT(sizes_of(prepare_report(run, bodies)), ElementsAre(4, 4, 4, 1, 4));
@@ -49,17 +49,17 @@ TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
 
 TEST(PrepareReport, ReplacesAnEarlierCount) {
   const ReportBodies bodies = protease();
-  const Run once = prepare_report(five_poses(bodies), bodies);
-  const Run twice = prepare_report(once, bodies);
+  const mortise::Run once = prepare_report(five_poses(bodies), bodies);
+  const mortise::Run twice = prepare_report(once, bodies);
   EXPECT_EQ(twice.metrics.size(), once.metrics.size());
 }
 
 TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   const ReportBodies bodies = protease();
-  Run run = report_run(bodies, 0);
+  mortise::Run run = report_run(bodies, 0);
   run.complete = false;
   run.checkpoint = sample_checkpoint(60);
-  const Run shown = prepare_report(run, bodies);
+  const mortise::Run shown = prepare_report(run, bodies);
   ASSERT_EQ(shown.poses.poses.size(), 60u);
   const Checkpoint& c = *run.checkpoint;
   for (std::size_t i = 0; i < 60; ++i) {  // its scores fall already
@@ -80,7 +80,7 @@ TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
 
 TEST(PrepareReport, RefusesOptionsOutOfRange) {
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 2);
+  const mortise::Run run = report_run(bodies, 2);
   EXPECT_THROW((void)prepare_report(run, bodies, {.structures = -1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = -0.1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = std::nan("")}), InputError);

@@ -24,7 +24,7 @@ using ::testing::Not;
 TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
   const ScratchDirectory scratch;
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 20);
+  const mortise::Run run = report_run(bodies, 20);
   const ReportFiles result = write_report(run, bodies, scratch / "a/b", {.structures = 2});
   for (const std::string& name : result.files)
     EXPECT_TRUE(std::filesystem::exists(scratch / ("a/b/" + name))) << name;
