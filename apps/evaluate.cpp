@@ -7,6 +7,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/reference_complex.hpp"
 #include "mortise/molecules/read_molecule.hpp"
+#include "mortise/report/interface_columns.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/inputs.hpp"
 #include "pose_table.hpp"
@@ -25,6 +26,7 @@ struct Options {
   std::string fixed_path;
   std::string moving_path;
   bool force = false;
+  std::size_t interfaces = 0;  ///< best poses whose interface is described
 };
 
 std::string shown(const ComplexMetrics& m) {
@@ -83,6 +85,11 @@ void execute(const Options& options) {
       evaluate_poses(reference, poses, options.common.threads);
   const ComplexMetrics superposed = reference.evaluate(reference.superposed_pose());
   set_metrics(run, metrics);
+  if (options.interfaces > 0)
+    set_metric_columns(
+        run,
+        interface_columns(MolecularInterface(fixed, moving, {.threads = options.common.threads}),
+                          run.poses, options.interfaces, options.common.threads));
   write_run(options.run, run);
 
   const QualitySummary summary = summarise(metrics);
@@ -119,6 +126,9 @@ void add_evaluate(CLI::App& program) {
   command.add_option("--fixed", options->fixed_path, "Where the receptor's file is now");
   command.add_option("--moving", options->moving_path, "Where the ligand's file is now");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
+  command.add_option("--interface", options->interfaces,
+                     "Describe the interfaces of the best N poses too: buried area, contacts,\n"
+                     "hydrogen bonds, clashes, shape complementarity Sc");
   add_common_options(
       command, options->common,
       "  mortise evaluate run.h5 --reference-fixed complex.pdb:A --reference-moving complex.pdb:B\n"

@@ -77,6 +77,12 @@ void add_report(CLI::App& program) {
           "those if one holds several poses, else a tenth of the moving body's diameter")
       ->check(CLI::NonNegativeNumber);
   command
+      .add_option("--interfaces", options->report.interfaces,
+                  "Best poses of molecules whose interface is described: area, contacts, hydrogen\n"
+                  "bonds, clashes, Sc; where evaluate --interface has not done it")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
       .add_option("--png", options->report.pictures,
                   "So many best poses as PNG, ray traced, and the plots: for papers")
       ->capture_default_str()

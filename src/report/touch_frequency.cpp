@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "metrics/point_grid.hpp"
+#include "core/point_grid.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/report/page.hpp"

@@ -78,6 +78,25 @@ TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   }
 }
 
+TEST(PrepareReport, DescribesTheBestInterfacesOnce) {
+  const ReportBodies bodies = protease();
+  const auto column = [](const mortise::Run& run, const std::string& name) {
+    for (const MetricColumn& metric : run.metrics)
+      if (metric.name == name) return metric.values;
+    return std::vector<double>();
+  };
+  mortise::Run run = report_run(bodies, 6);
+  EXPECT_THAT(column(prepare_report(run, bodies, {.interfaces = 0}), "buried_area"),
+              ::testing::IsEmpty());
+  const mortise::Run shown = prepare_report(run, bodies, {.interfaces = 2});
+  const std::vector<double> areas = column(shown, "buried_area");
+  ASSERT_EQ(areas.size(), 6u);
+  EXPECT_GT(areas[0], 1000.0);  // the complex itself, square angstrom
+  EXPECT_TRUE(std::isnan(areas[2]));
+  const mortise::Run again = prepare_report(shown, bodies, {.interfaces = 6});
+  EXPECT_TRUE(std::isnan(column(again, "buried_area")[2])) << "kept as the run has them";
+}
+
 TEST(PrepareReport, RefusesOptionsOutOfRange) {
   const ReportBodies bodies = protease();
   const mortise::Run run = report_run(bodies, 2);
@@ -85,6 +104,7 @@ TEST(PrepareReport, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = -0.1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = std::nan("")}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.pictures = -1}), InputError);
+  EXPECT_THROW((void)prepare_report(run, bodies, {.interfaces = -1}), InputError);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What a spherical decomposition asks of a body: where it lies, how far its boundary is, which side.
+/// What a spherical decomposition asks of a body: where it lies, how far its boundary is, which
+/// side.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,12 +18,16 @@ struct ReportOptions {
   /// clusters. Absent: the run's own if one holds several poses, else a tenth of the moving body's
   /// diameter.
   std::optional<double> cluster_radius = {};
+  /// best poses of molecules whose interface is described (interface_columns), unless the run has
+  /// these columns; 0 = none; >= 0
+  int interfaces = 200;
   int pictures = 0;       ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
   int threads = 0;        ///< 0 = all cores; never changes the result
 };
 
 /// The run as the report shows it: clustered anew where the options say so, with a metric column
-/// "cluster_size"; an unfinished run's best raw candidates as its poses if it has no others.
+/// "cluster_size"; the best poses' interfaces described; an unfinished run's best raw candidates as
+/// its poses if it has no others.
 /// @throws InputError if an option is out of range
 [[nodiscard]] Run prepare_report(const Run& run, const ReportBodies& bodies,
                                  const ReportOptions& options = {});
