@@ -9,8 +9,8 @@
 namespace mortise::testing {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::Each;
+using ::testing::ElementsAre;
 
 std::vector<double> sizes_of(const Run& run) {
   for (const MetricColumn& metric : run.metrics)
