@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mortise report: one page that shows what a run has found, with its numbers and best poses as files.
+// mortise report: one page that shows what a run has found, with its numbers and best poses as
+// files.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -64,17 +65,20 @@ void add_report(CLI::App& program) {
   command.add_option("run", options->run, "Run file")->required();
   command.add_option("-o,--output", options->output,
                      "Directory to write; default: RUN_report beside the run");
-  command
-      .add_option("--top", options->report.structures,
-                  "Best poses written as structure files")
+  command.add_option("--top", options->report.structures, "Best poses written as structure files")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
       .add_option_function<double>(
-          "--cluster-radius",
-          [options](double radius) { options->report.cluster_radius = radius; },
+          "--cluster-radius", [options](double radius) { options->report.cluster_radius = radius; },
           "RMSD below which two poses are one cluster; 0 = the run's own clusters; default:\n"
           "those if one holds several poses, else a tenth of the moving body's diameter")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--interfaces", options->report.interfaces,
+                  "Best poses of molecules whose interface is described: area, contacts, hydrogen\n"
+                  "bonds, clashes, Sc; where evaluate --interface has not done it")
+      ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--png", options->report.pictures,
@@ -85,12 +89,13 @@ void add_report(CLI::App& program) {
   command.add_option("--moving", options->places.moving.path,
                      "Where the moving body's file is now");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
-  add_common_options(command, options->common,
-                     "  mortise report run.h5 -o report/\n"
-                     "  mortise report run.h5 --top 3 --png 3\n"
-                     "The page is index.html in that directory; it opens in any browser, without a\n"
-                     "network. Inputs that have moved are looked for, by SHA-256, beside the run and\n"
-                     "in the present directory.");
+  add_common_options(
+      command, options->common,
+      "  mortise report run.h5 -o report/\n"
+      "  mortise report run.h5 --top 3 --png 3\n"
+      "The page is index.html in that directory; it opens in any browser, without a\n"
+      "network. Inputs that have moved are looked for, by SHA-256, beside the run and\n"
+      "in the present directory.");
   command.callback([options] { execute(*options); });
 }
 

@@ -68,8 +68,7 @@ ReportBody read_body(const BodyRecord& body, const Provenance& provenance, const
                      const std::string& kind, const std::string& found, bool force) {
   ReportBody read;
   read.found = found;
-  if (kind != "dock")
-    throw InputError("report: expected a docking run, got a " + kind + " run");
+  if (kind != "dock") throw InputError("report: expected a docking run, got a " + kind + " run");
   read.molecule = read_input_molecule(body, provenance, name, {found, force});
   return read;
 }
@@ -100,7 +99,8 @@ ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places) {
 Eigen::Matrix3Xd report_points(const ReportBody& body) {
   if (!body.is_mesh()) return atom_positions(detail::heavy_atoms(body.molecule));
   std::vector<char> used(static_cast<std::size_t>(body.mesh.vertices.cols()), 0);
-  for (const int corner : body.mesh.triangles.reshaped()) used[static_cast<std::size_t>(corner)] = 1;
+  for (const int corner : body.mesh.triangles.reshaped())
+    used[static_cast<std::size_t>(corner)] = 1;
   Eigen::Matrix3Xd points(3, std::count(used.begin(), used.end(), 1));
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < used.size(); ++i)

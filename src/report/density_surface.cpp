@@ -35,7 +35,8 @@ Density make_density(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& rad
                      double spacing) {
   const double reach = kReach * radii.maxCoeff();
   const Eigen::Vector3d low = centres.rowwise().minCoeff().array() - reach;
-  const Eigen::Vector3d extent = centres.rowwise().maxCoeff() - low + Eigen::Vector3d::Constant(reach);
+  const Eigen::Vector3d extent =
+      centres.rowwise().maxCoeff() - low + Eigen::Vector3d::Constant(reach);
   Density density;
   density.origin = low;
   density.spacing = std::max(spacing, std::cbrt(extent.prod() / kMostPoints));
@@ -49,7 +50,8 @@ Density make_density(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& rad
     std::array<int, 3> from = {};
     std::array<int, 3> to = {};
     for (int d = 0; d < 3; ++d) {
-      from[static_cast<std::size_t>(d)] = std::max(0, static_cast<int>(std::ceil(at[d] - kReach * r)));
+      from[static_cast<std::size_t>(d)] =
+          std::max(0, static_cast<int>(std::ceil(at[d] - kReach * r)));
       to[static_cast<std::size_t>(d)] =
           std::min(density.size[d] - 1, static_cast<int>(std::floor(at[d] + kReach * r)));
     }
@@ -58,7 +60,8 @@ Density make_density(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& rad
         const double rest = (k - at[2]) * (k - at[2]) + (j - at[1]) * (j - at[1]);
         float* row = density.values.data() + density.index(0, j, k);
         for (int i = from[0]; i <= to[0]; ++i)
-          row[i] += static_cast<float>(std::exp(kSoftness + scale * (rest + (i - at[0]) * (i - at[0]))));
+          row[i] +=
+              static_cast<float>(std::exp(kSoftness + scale * (rest + (i - at[0]) * (i - at[0]))));
       }
   }
   return density;
@@ -66,9 +69,18 @@ Density make_density(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& rad
 
 constexpr std::array<std::array<int, 3>, 8> kCorners = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}};
-constexpr std::array<std::array<int, 2>, 12> kEdges = {{{0, 1}, {2, 3}, {4, 5}, {6, 7},
-                                                        {0, 2}, {1, 3}, {4, 6}, {5, 7},
-                                                        {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+constexpr std::array<std::array<int, 2>, 12> kEdges = {{{0, 1},
+                                                        {2, 3},
+                                                        {4, 5},
+                                                        {6, 7},
+                                                        {0, 2},
+                                                        {1, 3},
+                                                        {4, 6},
+                                                        {5, 7},
+                                                        {0, 4},
+                                                        {1, 5},
+                                                        {2, 6},
+                                                        {3, 7}}};
 
 // The mean of the crossings of a cell's edges, in grid units from the cell's corner; false if
 // there is none.
@@ -124,7 +136,8 @@ TriangleMesh density_surface(const Eigen::Matrix3Xd& centres, const Eigen::Vecto
           Eigen::Vector3i next = here;
           ++next[axis];
           const bool inside = density.values[density.index(i, j, k)] >= 1.0F;
-          if (inside == (density.values[density.index(next[0], next[1], next[2])] >= 1.0F)) continue;
+          if (inside == (density.values[density.index(next[0], next[1], next[2])] >= 1.0F))
+            continue;
           const int u = (axis + 1) % 3;
           const int w = (axis + 2) % 3;
           std::array<int, 4> corner = {};

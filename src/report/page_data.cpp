@@ -79,9 +79,9 @@ Json structure_json(const Molecule& molecule) {
 }
 
 Json body_json(const BodyRecord& record, const ReportBody& body, const char* role) {
-  Json json = {{"name", body_name(record)}, {"role", role},
-               {"path", record.path},       {"spec", record.spec},
-               {"sha256", record.sha256},   {"found", body.found},
+  Json json = {{"name", body_name(record)},   {"role", role},
+               {"path", record.path},         {"spec", record.spec},
+               {"sha256", record.sha256},     {"found", body.found},
                {"knots", record.knots.size()}};
   const Eigen::Matrix3Xd points = report_points(body);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -158,9 +158,9 @@ std::string page_data(const Run& run, const ReportBodies& bodies, const Eigen::V
   std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();  // the closing brace
   // Long lists of numbers are written by hand: quicker, and with no more digits than they need.
-  text += ",\"frequency\":" + numbers(static_cast<std::size_t>(frequency.size()), [&](std::size_t i) {
-            return frequency[static_cast<Eigen::Index>(i)];
-          });
+  text += ",\"frequency\":" +
+          numbers(static_cast<std::size_t>(frequency.size()),
+                  [&](std::size_t i) { return frequency[static_cast<Eigen::Index>(i)]; });
   text += ",\"poses\":{\"count\":" + std::to_string(poses.size());
   text += ",\"rotation\":" + numbers(4 * poses.size(), [&](std::size_t i) {
             const Eigen::Quaterniond& q = poses[i / 4].moving_in_fixed.rotation;

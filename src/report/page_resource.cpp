@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's bytes, put here by the assembler: a string literal of this size takes compilers seconds.
+// The page's bytes, put here by the assembler: a string literal of this size takes compilers
+// seconds.
 #include "report/page_resource.hpp"
 
 #ifdef MORTISE_REPORT_PAGE

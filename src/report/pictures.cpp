@@ -44,10 +44,11 @@ void render_scene(const std::string& scene, const std::string& png_path,
   const std::string source = scratch / "scene.pov";
   const std::string picture = scratch / "scene.png";
   write_file_atomically(source, scene);
-  detail::run_program({"povray", "+I" + source, "+O" + picture, "+W" + std::to_string(options.width),
-                       "+H" + std::to_string(options.height), "+A0.2", "+AM2", "+R2", "-D", "-V",
-                       "+FN8", "+WT" + std::to_string(resolve_threads(options.threads))},
-                      {}, "pictures of poses need POV-Ray, Debian package povray");
+  detail::run_program(
+      {"povray", "+I" + source, "+O" + picture, "+W" + std::to_string(options.width),
+       "+H" + std::to_string(options.height), "+A0.2", "+AM2", "+R2", "-D", "-V", "+FN8",
+       "+WT" + std::to_string(resolve_threads(options.threads))},
+      {}, "pictures of poses need POV-Ray, Debian package povray");
   write_file_atomically(png_path, read_whole_file(picture));
 }
 
@@ -69,8 +70,7 @@ std::vector<std::string> draw_plots(const Run& run, const std::string& directory
 }
 
 void draw_success(const std::vector<SuccessCurve>& curves, int most, const std::string& png_path) {
-  if (most < 1)
-    throw InputError("draw_success: most must be >= 1, got " + std::to_string(most));
+  if (most < 1) throw InputError("draw_success: most must be >= 1, got " + std::to_string(most));
   if (curves.empty()) throw InputError("draw_success: there is no curve");
   nlohmann::json data = {{"most", most}, {"curves", nlohmann::json::array()}};
   for (const SuccessCurve& curve : curves) {

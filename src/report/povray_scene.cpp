@@ -19,8 +19,8 @@
 namespace mortise {
 namespace {
 
-constexpr double kMargin = 1.06;          // of the picture around what it shows
-constexpr double kSurfaceSpacing = 0.5;  // angstrom
+constexpr double kMargin = 1.06;              // of the picture around what it shows
+constexpr double kSurfaceSpacing = 0.5;       // angstrom
 constexpr double kSmooth = std::numbers::pi;  // a crease no edge has
 
 // Linear light of the page's two body colours.
@@ -188,8 +188,9 @@ std::string povray_scene(const ReportBodies& bodies, const RigidMotion& pose,
     constexpr double kLine = 0.0016;  // of the assembly's diagonal
     const double line = kLine * (shown.rowwise().maxCoeff() - shown.rowwise().minCoeff()).norm();
     objects = mesh_text(bodies.fixed.mesh, {}, detail::kCrease) + material(kFixedColour, 0.45) +
-              edges_text(bodies.fixed.mesh, {}, line) + mesh_text(bodies.moving.mesh, pose, detail::kCrease) +
-              material(kMovingColour, 0.0) + edges_text(bodies.moving.mesh, pose, line);
+              edges_text(bodies.fixed.mesh, {}, line) +
+              mesh_text(bodies.moving.mesh, pose, detail::kCrease) + material(kMovingColour, 0.0) +
+              edges_text(bodies.moving.mesh, pose, line);
   } else {
     const Molecule fixed = detail::heavy_atoms(bodies.fixed.molecule);
     const Molecule moving = detail::heavy_atoms(bodies.moving.molecule);
@@ -200,8 +201,8 @@ std::string povray_scene(const ReportBodies& bodies, const RigidMotion& pose,
     view = view_of_molecules(atom_positions(fixed), placed);
     show(surface.vertices);
     show(placed);
-    objects = mesh_text(surface, {}, kSmooth) + material(kFixedColour, 0.0) + sticks_text(fixed, {}, false) +
-              sticks_text(moving, pose, band.size() == 0);
+    objects = mesh_text(surface, {}, kSmooth) + material(kFixedColour, 0.0) +
+              sticks_text(fixed, {}, false) + sticks_text(moving, pose, band.size() == 0);
     if (band.size() > 0) objects += mesh_text(band, pose, kSmooth) + material(kMovingColour, 0.0);
   }
   return text + camera_text(view, shown, options) + objects;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/report/interface_columns.hpp"
 #include "mortise/report/write_report.hpp"
 #include "mortise/search/cluster.hpp"
 
@@ -82,6 +83,8 @@ Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptio
   check_run(run, "report");
   if (options.structures < 0)
     throw InputError("report: structures must be >= 0, got " + std::to_string(options.structures));
+  if (options.interfaces < 0)
+    throw InputError("report: interfaces must be >= 0, got " + std::to_string(options.interfaces));
   if (options.pictures < 0)
     throw InputError("report: pictures must be >= 0, got " + std::to_string(options.pictures));
   if (options.cluster_radius && !(*options.cluster_radius >= 0.0))
@@ -103,6 +106,15 @@ Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptio
   if (radius > 0.0 && points.cols() > 0) cluster(shown, points, radius);
   std::erase_if(shown.metrics, [](const MetricColumn& m) { return m.name == "cluster_size"; });
   shown.metrics.insert(shown.metrics.begin(), cluster_sizes(shown.poses));
+  const bool described =
+      std::any_of(shown.metrics.begin(), shown.metrics.end(),
+                  [](const MetricColumn& m) { return m.name == "interface_area"; });
+  if (options.interfaces > 0 && !described && !bodies.fixed.is_mesh())
+    set_metric_columns(
+        shown, interface_columns(MolecularInterface(bodies.fixed.molecule, bodies.moving.molecule,
+                                                    {.threads = options.threads}),
+                                 shown.poses, static_cast<std::size_t>(options.interfaces),
+                                 options.threads));
   return shown;
 }
 

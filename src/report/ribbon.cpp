@@ -12,9 +12,9 @@
 namespace mortise::detail {
 namespace {
 
-constexpr int kSteps = 8;         // per residue
-constexpr int kSides = 16;        // of the cross-section
-constexpr double kWidth = 1.35;   // half axes of the cross-section, angstrom
+constexpr int kSteps = 8;        // per residue
+constexpr int kSides = 16;       // of the cross-section
+constexpr double kWidth = 1.35;  // half axes of the cross-section, angstrom
 constexpr double kHeight = 0.38;
 constexpr double kLongestStep = 4.5;     // angstrom from CA to CA
 constexpr double kLongestStepP = 8.0;    // from P to P
@@ -102,8 +102,8 @@ void add_band(const std::vector<Node>& run, std::vector<Eigen::Vector3d>& vertic
     const double fullness = from_end >= 1.0 ? 1.0 : std::sqrt(from_end * (2.0 - from_end));
     for (int side = 0; side < kSides; ++side) {
       const double a = 2.0 * std::numbers::pi * side / kSides;
-      vertices.emplace_back(at + fullness * (kWidth * std::cos(a) * across +
-                                             kHeight * std::sin(a) * up));
+      vertices.emplace_back(at + fullness *
+                                     (kWidth * std::cos(a) * across + kHeight * std::sin(a) * up));
     }
   }
   for (int ring = 0; ring + 1 < rings; ++ring)

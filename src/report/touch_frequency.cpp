@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "metrics/point_grid.hpp"
+#include "core/point_grid.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/report/page.hpp"
@@ -79,7 +79,8 @@ Eigen::VectorXd touch_frequency(const Run& run, const ReportBodies& bodies, doub
     const Eigen::Matrix3Xd moved = run.poses.poses[index].moving_in_fixed * moving;
     for (Eigen::Index i = 0; i < moved.cols(); ++i)
       grid.for_each_near(moved.col(i), [&](std::int32_t point) {
-        const auto place = static_cast<std::size_t>(fixed.place_of[static_cast<std::size_t>(point)]);
+        const auto place =
+            static_cast<std::size_t>(fixed.place_of[static_cast<std::size_t>(point)]);
         if (mine.last[place] == index + 1) return;
         mine.last[place] = index + 1;
         ++mine.touches[place];

@@ -116,8 +116,7 @@ void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
 }
 
 void write_structures(Writer& writer, const Run& run, const ReportBodies& bodies, int structures) {
-  const std::size_t count =
-      std::min(static_cast<std::size_t>(structures), run.poses.poses.size());
+  const std::size_t count = std::min(static_cast<std::size_t>(structures), run.poses.poses.size());
   if (count == 0) return;
   make_directory(writer.directory() / "poses");
   const StructureText text = structure_texts(run, bodies, count);

@@ -44,7 +44,7 @@ class ReportInputs : public ::testing::Test {
   }
 
   ScratchDirectory scratch_;
-  Run run_;
+  mortise::Run run_;
   SearchPlaces places_;
 };
 

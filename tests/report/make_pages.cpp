@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the reports that the browser test opens: mortise_report_pages DIRECTORY [hundred-thousand].
+// Writes the reports that the browser test opens: mortise_report_pages DIRECTORY
+// [hundred-thousand].
 #include <cstdio>
 #include <cstring>
 #include <exception>

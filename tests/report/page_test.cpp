@@ -59,7 +59,7 @@ class Page : public ::testing::Test {
 
 TEST_F(Page, HoldsTheRunsNumbersToSevenDigits) {
   const ReportBodies bodies = protease();
-  Run run = report_run(bodies, 30);
+  mortise::Run run = report_run(bodies, 30);
   run.metrics[2].values[4] = std::numeric_limits<double>::quiet_NaN();
   const nlohmann::json data = data_of(report_page(run, bodies, {.frequency_poses = 7}));
   EXPECT_EQ(data["poses"]["count"], 30);
@@ -90,7 +90,7 @@ TEST_F(Page, HoldsTheRunsNumbersToSevenDigits) {
 TEST_F(Page, NamesFromFilesAreNeverMarkup) {
   const std::string markup = "</title></script><img src=x onerror=alert(1)>\"'&";
   const ReportBodies bodies = protease();
-  Run run = report_run(bodies, 3);
+  mortise::Run run = report_run(bodies, 3);
   run.fixed.path = run.fixed.spec = "a" + markup + ".pdb";
   run.provenance.command_line = run.provenance.options_json = run.provenance.host = markup;
   run.poses.channel_names[0] = "<b>";
@@ -115,7 +115,7 @@ TEST_F(Page, LoadsNothingAndSaysSo) {
 
 TEST_F(Page, EqualRunsGiveEqualPages) {
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 50);
+  const mortise::Run run = report_run(bodies, 50);
   EXPECT_EQ(report_page(run, bodies, {.threads = 1}), report_page(run, bodies, {.threads = 3}));
 }
 

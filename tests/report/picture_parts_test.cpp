@@ -125,11 +125,11 @@ TEST(Shading, OfAPrismBreaksAtItsEdges) {
   EXPECT_EQ(detail::sharp_edges(cube).cols(), 12);
   const Eigen::Matrix3Xd normals = detail::corner_normals(cube);
   for (Eigen::Index t = 0; t < cube.size(); ++t) {
-    const Eigen::Vector3d centre = (cube.vertices.col(cube.triangles(0, t)) +
-                                    cube.vertices.col(cube.triangles(1, t)) +
-                                    cube.vertices.col(cube.triangles(2, t))) /
-                                       3.0 -
-                                   Eigen::Vector3d::Constant(0.5);
+    const Eigen::Vector3d centre =
+        (cube.vertices.col(cube.triangles(0, t)) + cube.vertices.col(cube.triangles(1, t)) +
+         cube.vertices.col(cube.triangles(2, t))) /
+            3.0 -
+        Eigen::Vector3d::Constant(0.5);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(normals.col(3 * t + c).cwiseAbs().maxCoeff(), 1.0, 1e-12);  // along an axis
       EXPECT_NEAR(normals.col(3 * t + c).dot(centre), 0.5, 1e-12);            // outward

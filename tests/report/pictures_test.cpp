@@ -106,7 +106,7 @@ class Plots : public ::testing::Test {
 };
 
 TEST_F(Plots, OfScoresAndWithMetricsOfTheFunnelAndTheBestOfTheFirst) {
-  Run run = report_run(protease(), 60);
+  mortise::Run run = report_run(protease(), 60);
   run.metrics[0].values[3] = std::nan("");
   EXPECT_THAT(draw_plots(run, scratch_.path().string()),
               ElementsAre("scores.png", "funnel.png", "best_of_top.png"));

@@ -9,8 +9,8 @@
 namespace mortise::testing {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::Each;
+using ::testing::ElementsAre;
 
 std::vector<double> sizes_of(const Run& run) {
   for (const MetricColumn& metric : run.metrics)
@@ -20,7 +20,7 @@ std::vector<double> sizes_of(const Run& run) {
 
 // Three poses near each other, one far away, one near the first again.
 Run five_poses(const ReportBodies& bodies) {
-  Run run = report_run(bodies, 5);
+  mortise::Run run = report_run(bodies, 5);
   const double x[] = {0.0, 1.0, 2.0, 40.0, 0.5};
   for (std::size_t i = 0; i < 5; ++i) {
     run.poses.poses[i].moving_in_fixed = {Eigen::Quaterniond::Identity(), {x[i], 0.0, 0.0}};
@@ -31,7 +31,7 @@ Run five_poses(const ReportBodies& bodies) {
 
 TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
   const ReportBodies bodies = protease();
-  const Run shown = prepare_report(five_poses(bodies), bodies, {.cluster_radius = 1.2});
+  const mortise::Run shown = prepare_report(five_poses(bodies), bodies, {.cluster_radius = 1.2});
   EXPECT_THAT(sizes_of(shown), ElementsAre(3, 3, 1, 1, 3));
   EXPECT_EQ(shown.poses.poses[4].cluster, 0);
   EXPECT_EQ(shown.poses.poses[3].cluster, 2);
@@ -39,7 +39,7 @@ TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
 
 TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
   const ReportBodies bodies = protease();
-  Run run = five_poses(bodies);
+  mortise::Run run = five_poses(bodies);
   EXPECT_THAT(sizes_of(prepare_report(run, bodies, {.cluster_radius = 0.0})), Each(1.0));
   // All alone: clustered anew with a tenth of the diameter, about 5 angstrom.
   EXPECT_THAT(sizes_of(prepare_report(run, bodies)), ElementsAre(4, 4, 4, 1, 4));
@@ -49,17 +49,17 @@ TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
 
 TEST(PrepareReport, ReplacesAnEarlierCount) {
   const ReportBodies bodies = protease();
-  const Run once = prepare_report(five_poses(bodies), bodies);
-  const Run twice = prepare_report(once, bodies);
+  const mortise::Run once = prepare_report(five_poses(bodies), bodies);
+  const mortise::Run twice = prepare_report(once, bodies);
   EXPECT_EQ(twice.metrics.size(), once.metrics.size());
 }
 
 TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   const ReportBodies bodies = protease();
-  Run run = report_run(bodies, 0);
+  mortise::Run run = report_run(bodies, 0);
   run.complete = false;
   run.checkpoint = sample_checkpoint(60);
-  const Run shown = prepare_report(run, bodies);
+  const mortise::Run shown = prepare_report(run, bodies);
   ASSERT_EQ(shown.poses.poses.size(), 60u);
   const Checkpoint& c = *run.checkpoint;
   for (std::size_t i = 0; i < 60; ++i) {  // its scores fall already
@@ -78,13 +78,33 @@ TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   }
 }
 
+TEST(PrepareReport, DescribesTheBestInterfacesOnce) {
+  const ReportBodies bodies = protease();
+  const auto column = [](const mortise::Run& run, const std::string& name) {
+    for (const MetricColumn& metric : run.metrics)
+      if (metric.name == name) return metric.values;
+    return std::vector<double>();
+  };
+  mortise::Run run = report_run(bodies, 6);
+  EXPECT_THAT(column(prepare_report(run, bodies, {.interfaces = 0}), "buried_area"),
+              ::testing::IsEmpty());
+  const mortise::Run shown = prepare_report(run, bodies, {.interfaces = 2});
+  const std::vector<double> areas = column(shown, "buried_area");
+  ASSERT_EQ(areas.size(), 6u);
+  EXPECT_GT(areas[0], 1000.0);  // the complex itself, square angstrom
+  EXPECT_TRUE(std::isnan(areas[2]));
+  const mortise::Run again = prepare_report(shown, bodies, {.interfaces = 6});
+  EXPECT_TRUE(std::isnan(column(again, "buried_area")[2])) << "kept as the run has them";
+}
+
 TEST(PrepareReport, RefusesOptionsOutOfRange) {
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 2);
+  const mortise::Run run = report_run(bodies, 2);
   EXPECT_THROW((void)prepare_report(run, bodies, {.structures = -1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = -0.1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = std::nan("")}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.pictures = -1}), InputError);
+  EXPECT_THROW((void)prepare_report(run, bodies, {.interfaces = -1}), InputError);
 }
 
 }  // namespace

@@ -149,12 +149,13 @@ inline Run report_run(const ReportBodies& bodies, int count, unsigned seed = 1) 
             [](const Row& a, const Row& b) { return a.pose.score > b.pose.score; });
   for (const Row& row : rows) run.poses.poses.push_back(row.pose);
   if (run.kind == "mate" || count == 0) return run;
-  run.metrics = {{"interface_rmsd", {}}, {"ligand_rmsd", {}}, {"fnat", {}}, {"dockq", {}}, {"capri", {}}};
+  run.metrics = {
+      {"interface_rmsd", {}}, {"ligand_rmsd", {}}, {"fnat", {}}, {"dockq", {}}, {"capri", {}}};
   for (const Row& row : rows) {
     const double values[] = {row.rmsd / 2, row.rmsd, std::exp(-row.rmsd / 5),
                              std::exp(-row.rmsd / 6),
-                             row.rmsd < 2   ? 3.0
-                             : row.rmsd < 5 ? 2.0
+                             row.rmsd < 2    ? 3.0
+                             : row.rmsd < 5  ? 2.0
                              : row.rmsd < 10 ? 1.0
                                              : 0.0};
     for (std::size_t k = 0; k < run.metrics.size(); ++k) run.metrics[k].values.push_back(values[k]);

@@ -13,7 +13,7 @@ namespace {
 
 TEST(TouchFrequency, AgreesWithAllPairsOfAtoms) {
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 12);
+  const mortise::Run run = report_run(bodies, 12);
   const Molecule& fixed = bodies.fixed.molecule;
   const std::vector<ResidueRange> all = residues(fixed);
   for (const double cutoff : {3.5, 5.0, 12.0}) {
@@ -39,7 +39,7 @@ TEST(TouchFrequency, AgreesWithAllPairsOfAtoms) {
 
 TEST(TouchFrequency, OfPartsIsPerVertex) {
   const ReportBodies bodies = plate_and_pin();
-  Run run = report_run(bodies, 1);
+  mortise::Run run = report_run(bodies, 1);
   run.poses.poses[0].moving_in_fixed = {};
   const Eigen::VectorXd frequency = touch_frequency(run, bodies, 1.0, 1);
   ASSERT_EQ(frequency.size(), bodies.fixed.mesh.vertices.cols());

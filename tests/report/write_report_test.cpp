@@ -24,7 +24,7 @@ using ::testing::Not;
 TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
   const ScratchDirectory scratch;
   const ReportBodies bodies = protease();
-  const Run run = report_run(bodies, 20);
+  const mortise::Run run = report_run(bodies, 20);
   const ReportFiles result = write_report(run, bodies, scratch / "a/b", {.structures = 2});
   for (const std::string& name : result.files)
     EXPECT_TRUE(std::filesystem::exists(scratch / ("a/b/" + name))) << name;
@@ -37,14 +37,15 @@ TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
   const Molecule second = read_molecule({scratch / "a/b/poses/pose_0002.pdb"}).molecule;
   ASSERT_EQ(second.atoms.size(), bodies.moving.molecule.atoms.size());
   for (std::size_t i = 0; i < second.atoms.size(); ++i)
-    EXPECT_LT((second.atoms[i].position - run.poses.poses[1].moving_in_fixed *
-                                              bodies.moving.molecule.atoms[i].position)
+    EXPECT_LT((second.atoms[i].position -
+               run.poses.poses[1].moving_in_fixed * bodies.moving.molecule.atoms[i].position)
                   .norm(),
               1e-3);  // a PDB file has three decimals
   const std::string csv = read_whole_file(scratch / "a/b/poses.csv");
   EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr("cluster_size"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 21);
-  EXPECT_EQ(nlohmann::json::parse(read_whole_file(scratch / "a/b/poses.json"))["poses"].size(), 20u);
+  EXPECT_EQ(nlohmann::json::parse(read_whole_file(scratch / "a/b/poses.json"))["poses"].size(),
+            20u);
 }
 
 TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
@@ -56,7 +57,8 @@ TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
   EXPECT_EQ(read_molecule({scratch / "cif/poses/pose_0003.cif"}).molecule.atoms[0].chain, "LONG");
   const ReportFiles none = write_report(report_run(bodies, 0), bodies, scratch / "none");
   EXPECT_THAT(none.files, Not(Contains("poses.pml")));
-  EXPECT_EQ(nlohmann::json::parse(read_whole_file(scratch / "none/poses.json"))["poses"].size(), 0u);
+  EXPECT_EQ(nlohmann::json::parse(read_whole_file(scratch / "none/poses.json"))["poses"].size(),
+            0u);
 }
 
 TEST(WriteReport, RefusesADirectoryThatCannotBe) {
@@ -95,7 +97,8 @@ TEST_F(ReportCommand, ReportsADockingRun) {
   std::filesystem::create_directory(path("moved"));
   std::filesystem::rename(path("run.h5"), path("moved/run.h5"));
   std::filesystem::rename(path("1hpv_ligand.pdb"), path("moved/other.pdb"));
-  EXPECT_THAT(must("report moved/run.h5").error, HasSubstr("was found by its SHA-256 at moved/other.pdb"));
+  EXPECT_THAT(must("report moved/run.h5").error,
+              HasSubstr("was found by its SHA-256 at moved/other.pdb"));
   std::filesystem::remove(path("moved/other.pdb"));
   expect_user_error("report moved/run.h5", "1hpv_ligand.pdb: the run's moving input is not there");
   expect_user_error("report 1hpv_receptor.pdb", "1hpv_receptor.pdb");

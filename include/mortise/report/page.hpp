@@ -15,8 +15,8 @@ namespace mortise {
 
 /// How often each residue of the fixed molecule (each vertex of the fixed mesh) is touched.
 ///
-/// A residue is touched in a pose that brings a heavy atom of the moving body within `cutoff` of one
-/// of its atoms; a vertex likewise with the moving mesh's vertices and triangle centres.
+/// A residue is touched in a pose that brings a heavy atom of the moving body within `cutoff` of
+/// one of its atoms; a vertex likewise with the moving mesh's vertices and triangle centres.
 /// @param poses  the best so many poses of the run count; >= 1
 /// @return shares in [0, 1], one per residue or vertex; all 0 without poses
 [[nodiscard]] Eigen::VectorXd touch_frequency(const Run& run, const ReportBodies& bodies,

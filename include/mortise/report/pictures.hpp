@@ -12,16 +12,16 @@
 namespace mortise {
 
 struct PictureOptions {
-  int width = 1200;   ///< pixels; 16 to 10,000
+  int width = 1200;  ///< pixels; 16 to 10,000
   int height = 900;  ///< likewise
-  int threads = 0;    ///< 0 = all cores
+  int threads = 0;   ///< 0 = all cores
 };
 
-/// A POV-Ray scene of both bodies at a pose: the fixed molecule as a Gaussian surface and the moving
-/// one as a ribbon, parts as meshes with their sharp edges, the fixed one see-through.
+/// A POV-Ray scene of both bodies at a pose: the fixed molecule as a Gaussian surface and the
+/// moving one as a ribbon, parts as meshes with their sharp edges, the fixed one see-through.
 ///
-/// Seen in parallel projection, molecules at right angles to the line between the bodies, parts from
-/// above with z upward; everything is in the picture.
+/// Seen in parallel projection, molecules at right angles to the line between the bodies, parts
+/// from above with z upward; everything is in the picture.
 /// @param pose  carries the moving body to its place
 /// @throws InputError if a body is empty or an option out of range
 [[nodiscard]] std::string povray_scene(const ReportBodies& bodies, const RigidMotion& pose,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// A run's report: the page, the numbers as tables, the best poses as files, scripts for other viewers.
+/// A run's report: the page, the numbers as tables, the best poses as files, scripts for other
+/// viewers.
 #pragma once
 
 #include <optional>
@@ -18,12 +19,16 @@ struct ReportOptions {
   /// clusters. Absent: the run's own if one holds several poses, else a tenth of the moving body's
   /// diameter.
   std::optional<double> cluster_radius = {};
-  int pictures = 0;       ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
-  int threads = 0;        ///< 0 = all cores; never changes the result
+  /// best poses of molecules whose interface is described (interface_columns), unless the run has
+  /// these columns; 0 = none; >= 0
+  int interfaces = 200;
+  int pictures = 0;  ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
+  int threads = 0;   ///< 0 = all cores; never changes the result
 };
 
 /// The run as the report shows it: clustered anew where the options say so, with a metric column
-/// "cluster_size"; an unfinished run's best raw candidates as its poses if it has no others.
+/// "cluster_size"; the best poses' interfaces described; an unfinished run's best raw candidates as
+/// its poses if it has no others.
 /// @throws InputError if an option is out of range
 [[nodiscard]] Run prepare_report(const Run& run, const ReportBodies& bodies,
                                  const ReportOptions& options = {});
@@ -33,8 +38,8 @@ struct ReportFiles {
   std::vector<std::string> warnings;  ///< one line each: what was left out and why
 };
 
-/// Writes index.html, poses.csv, poses.json, the best poses below poses/ (PDB, mmCIF where PDB has no
-/// room, STL for parts) and poses.pml and poses.cxc, which show these in PyMOL and ChimeraX.
+/// Writes index.html, poses.csv, poses.json, the best poses below poses/ (PDB, mmCIF where PDB has
+/// no room, STL for parts) and poses.pml and poses.cxc, which show these in PyMOL and ChimeraX.
 /// @param directory  made if it is not there; files of the same names are replaced
 /// @throws FileError if it cannot be written; InputError as prepare_report and report_page
 [[nodiscard]] ReportFiles write_report(const Run& run, const ReportBodies& bodies,

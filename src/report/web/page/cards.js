@@ -104,6 +104,36 @@ function funnelCard(run, state) {
     }
     return best;
   };
+  let layer = null;
+  let layerKey = '';
+  function paintPoints(width, height, scale, font) {
+    layer = new OffscreenCanvas(Math.round(width * scale), Math.round(height * scale));
+    const context = layer.getContext('2d');
+    context.scale(scale, scale);
+    context.font = font;
+    plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'score' });
+    const classes = capri ? ['incorrect', 'acceptable', 'medium', 'high'] : [null];
+    const size = run.count > 20000 ? 1.5 : run.count > 2000 ? 2.2 : 2.8;
+    context.globalAlpha = run.count > 5000 ? 0.55 : 0.75;
+    classes.forEach((name, level) => {
+      context.fillStyle = name ? themeColor(name) : themeColor('fixed');
+      const larger = level > 0 ? size + 0.8 : size;
+      context.beginPath();
+      for (let i = run.count - 1; i >= 0; --i) {
+        if (capri && (capri.values[i] || 0) !== level) continue;
+        const x = plot.toX(column.values[i]);
+        const y = plot.toY(score.values[i]);
+        if (!Number.isFinite(x)) continue;
+        if (size < 2) context.rect(x - 0.8, y - 0.8, 1.6, 1.6);
+        else {
+          context.moveTo(x + larger, y);
+          context.arc(x, y, larger, 0, 2 * Math.PI);
+        }
+      }
+      context.fill();
+    });
+    context.globalAlpha = 1;
+  }
   const title = () => (usable.includes(column.key) ? 'Funnel' : 'Score against');
   const card = makeCard(byId('plots'), title(), {
     controls: [choice('Quantity on the horizontal axis', keys.map((key) => [key, run.column[key].label]), column.key, (key) => {
@@ -111,31 +141,15 @@ function funnelCard(run, state) {
       card.repaint();
     })],
     note: 'Click a point to see its pose.',
-    draw(context, width, height) {
-      plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'score' });
-      const classes = capri ? ['incorrect', 'acceptable', 'medium', 'high'] : [null];
-      const size = run.count > 20000 ? 1.5 : run.count > 2000 ? 2.2 : 2.8;
-      context.globalAlpha = run.count > 5000 ? 0.55 : 0.75;
-      classes.forEach((name, level) => {
-        context.fillStyle = name ? themeColor(name) : themeColor('fixed');
-        const larger = level > 0 ? size + 0.8 : size;
-        context.beginPath();
-        for (let i = run.count - 1; i >= 0; --i) {
-          if (capri && (capri.values[i] || 0) !== level) continue;
-          const x = plot.toX(column.values[i]);
-          const y = plot.toY(score.values[i]);
-          if (!Number.isFinite(x)) continue;
-          if (size < 2) context.rect(x - 0.8, y - 0.8, 1.6, 1.6);
-          else {
-            context.moveTo(x + larger, y);
-            context.arc(x, y, larger, 0, 2 * Math.PI);
-          }
-        }
-        context.fill();
-      });
-      context.globalAlpha = 1;
+    draw(target, width, height) {
+      // The points are painted once; stepping through the poses moves the marker only.
+      const scale = window.devicePixelRatio || 1;
+      const key = `${width}x${height}:${scale}:${column.key}:${document.documentElement.dataset.theme}`;
+      if (key !== layerKey) paintPoints(width, height, scale, target.font);
+      layerKey = key;
+      target.drawImage(layer, 0, 0, width, height);
       const x = plot.toX(column.values[state.pose]);
-      if (Number.isFinite(x)) marker(context, x, plot.toY(score.values[state.pose]));
+      if (Number.isFinite(x)) marker(target, x, plot.toY(score.values[state.pose]));
     },
     hover: (x, y) => {
       const i = nearest(x, y);
