@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/point_grid.hpp"
 #include "metrics/nearest_point.hpp"
 #include "mortise/core/errors.hpp"
 
@@ -87,7 +88,7 @@ DottedBody::DottedBody(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& r
       places_{dots_.positions + options.probe_radius * dots_.normals,
               std::vector<Eigen::Index>(static_cast<std::size_t>(radii.size()) + 1, 0),
               (radii.array() + options.probe_radius).matrix()},
-      grid_(dots_.positions, options.trim, options.trim) {
+      cells_(dots_.positions, options.trim) {
   for (const std::int32_t atom : dots_.atoms) ++places_.first[atom + 1];
   for (std::size_t i = 1; i < places_.first.size(); ++i) places_.first[i] += places_.first[i - 1];
 }
@@ -96,19 +97,9 @@ std::vector<std::int32_t> DottedBody::interface(const Neighbours& neighbours,
                                                 const Eigen::Matrix3Xd& partners,
                                                 const Eigen::VectorXd& partner_grown) const {
   std::vector<std::int32_t> buried;
-  std::vector<char> is_buried(static_cast<std::size_t>(dots_.size()), 0);
-  for_each_covered(places_, centres_, neighbours, partners, partner_grown, [&](Eigen::Index dot) {
-    buried.push_back(static_cast<std::int32_t>(dot));
-    is_buried[dot] = 1;
-  });
-  const auto at_rim = [&](std::int32_t dot) {
-    bool found = false;
-    grid_.for_each_near(dots_.positions.col(dot),
-                        [&](std::int32_t other) { found = found || is_buried[other] == 0; });
-    return found;
-  };
-  buried.erase(std::remove_if(buried.begin(), buried.end(), at_rim), buried.end());
-  return buried;
+  for_each_covered(places_, centres_, neighbours, partners, partner_grown,
+                   [&](Eigen::Index dot) { buried.push_back(static_cast<std::int32_t>(dot)); });
+  return cells_.far_from_others(buried, dots_.positions);
 }
 
 Complementarity complementarity(const DottedBody& fixed, const DottedBody& moving,

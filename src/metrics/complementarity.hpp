@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/point_grid.hpp"
+#include "metrics/dot_cells.hpp"
 #include "metrics/near_pairs.hpp"
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/metrics/molecular_surface.hpp"
@@ -24,7 +24,7 @@ class DottedBody {
              const ComplementarityOptions& options);
 
   // The trimmed interface with a partner whose N grown balls stand at `partners`, in this body's
-  // frame: columns of dots(), rising.
+  // frame: columns of dots().
   [[nodiscard]] std::vector<std::int32_t> interface(const Neighbours& neighbours,
                                                     const Eigen::Matrix3Xd& partners,
                                                     const Eigen::VectorXd& partner_grown) const;
@@ -37,7 +37,7 @@ class DottedBody {
   Eigen::Matrix3Xd centres_;
   SurfaceDots dots_;
   ProbePlaces places_;  // of the probes that touch the dots
-  PointGrid grid_;      // of the dots, for trimming
+  DotCells cells_;      // of the dots, for trimming
 };
 
 // Sc in a pose. `fixed_in_moving`: the fixed body's centres in the moving body's frame;
