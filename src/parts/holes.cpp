@@ -67,7 +67,12 @@ Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double la
     if (extent > largest) continue;
     std::vector<CGAL::Triple<int, int, int>> patch;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(polyline, std::back_inserter(patch));
-    if (patch.empty()) continue;
+    // CGAL gives up on rings along a straight line; what a fan makes of them has no area and goes
+    // away later.
+    for (int i = 1; patch.size() + 2 < ring.size() && i + 1 < static_cast<int>(ring.size()); ++i) {
+      if (i == 1) patch.clear();
+      patch.emplace_back(0, i, i + 1);
+    }
     for (const auto& t : patch) {  // each with its corners in the ring's order
       std::array<int, 3> corners = {t.first, t.second, t.third};
       std::sort(corners.begin(), corners.end());

@@ -44,7 +44,7 @@ TEST(FormatPart, StlAndPlyComeBack) {
   const ReadPartResult from_ply = read_part(ply.path());
   EXPECT_EQ(from_ply.mesh.triangles, ball.triangles);
   EXPECT_LT((from_ply.mesh.vertices - moved).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_EQ(format_stl(ball, motion), format_stl(ball, motion));
+  EXPECT_EQ(format_stl(ball, motion).size(), 84U + 50U * static_cast<std::size_t>(ball.size()));
 }
 
 TEST(FormatPart, StepOfAMeshComesBackInItsUnit) {
@@ -71,7 +71,7 @@ TEST(FormatPart, MovedStepKeepsItsCurvedFaces) {
   const RigidMotion motion = some_motion();
   const std::string bytes = format_moved_step(source, motion);
   EXPECT_THAT(bytes, HasSubstr("CYLINDRICAL_SURFACE"));
-  EXPECT_EQ(bytes, format_moved_step(source, motion));
+  EXPECT_TRUE(bytes == format_moved_step(source, motion));
   const TemporaryFile step("moved.step", bytes);
   const ReadPartResult before = read_part(source);
   const ReadPartResult after = read_part(step.path());

@@ -123,13 +123,15 @@ TEST(ReadPart, SaysWhatIsWrongWithAFile) {
             ":4: expected a finite coordinate, found 'nan'");
   EXPECT_THAT(error_in("x.stl", ascii.substr(0, ascii.size() / 2)), HasSubstr("expected "));
   EXPECT_THAT(error_in("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n"), HasSubstr("expected"));
-  EXPECT_THAT(error_in("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), HasSubstr("expected an OBJ file"));
+  EXPECT_THAT(error_in("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+              HasSubstr("expected an OBJ file, found it malformed"));
   EXPECT_THAT(error_in("x.off", "OFF\n1000000000 1000000000 0\n0 0 0\n"),
-              HasSubstr("expected an OFF file"));
+              HasSubstr("found '1000000000'"));
   EXPECT_THAT(error_in("x.ply", "ply\nformat ascii 1.0\nelement vertex 2000000000\nend_header\n"),
               HasSubstr("expected a PLY file"));
   EXPECT_THAT(error_in("x.step", "ISO-10303-21;\nHEADER;\n"), HasSubstr("STEP"));
-  EXPECT_THAT(error_in("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("volume"));
+  EXPECT_THAT(error_in("x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+              HasSubstr("found 3 open edges, the first from (0, 0, 0) to (1, 0, 0)"));
   ReadPartOptions bad;
   bad.deviation = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)read_part(kPin + ".stl", bad), InputError);

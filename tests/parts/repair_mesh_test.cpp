@@ -146,7 +146,9 @@ TEST(RepairMesh, MergesSeamsAndFillsSmallHoles) {
   EXPECT_THAT(result.decisions.front(), HasSubstr("filled"));
   EXPECT_NEAR(result.volume, volume, 0.05);
   for (Eigen::Index n = 1; n <= 40; n += 3) {  // holes of any outline
-    result = repair_mesh(shapes::without_last(ball, n));
+    RepairOptions any_hole;
+    any_hole.largest_hole = 1.0;
+    result = repair_mesh(shapes::without_last(ball, n), any_hole);
     EXPECT_TRUE(result.closed) << n;
     EXPECT_TRUE(is_closed(result.mesh)) << n;
   }
@@ -197,7 +199,8 @@ TEST(RepairMesh, RefusesWhatIsNoSolid) {
   EXPECT_THAT(error_of(mesh), HasSubstr("names vertex 8, expected 0 to 7"));
   mesh = shapes::cube(2.0);
   mesh.vertices.row(2).setZero();
-  EXPECT_THAT(error_of(mesh), HasSubstr("no volume"));
+  EXPECT_THAT(error_of(mesh),
+              testing::AnyOf(HasSubstr("no volume"), HasSubstr("without area only")));
   mesh.vertices.setConstant(3.0);
   EXPECT_THAT(error_of(mesh), HasSubstr("in one point"));
   // A band with half a turn.

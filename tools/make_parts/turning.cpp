@@ -232,9 +232,9 @@ Pair spur_gears(double clearance) {
 
 Pair thread_nut(double clearance) {
   Pair p{.name = "thread_nut", .fixed_name = "nut", .moving_name = "bolt"};
-  p.deviation = 0.05;
+  p.deviation = 0.04;
   p.angle = 1.2;  // the crests are round on a small scale
-  p.smallest = 0.7;
+  p.smallest = 0.5;
   const auto thread = [](double wide, double low, double high) {
     return thread_solid({8 * wide, 1, 4, low, high});
   };

@@ -5,9 +5,11 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
@@ -95,16 +97,22 @@ std::string to_step(const UnitShape& part) {
     if (part.unit == unit.ours) unit_name = unit.for_writer;
   }
   try {
-    STEPControl_Writer writer;
+    STEPControl_Controller::Init();  // makes the options that are set next
     Interface_Static::SetCVal("write.step.schema", "AP214IS");
     Interface_Static::SetCVal("write.step.unit", unit_name);
     Interface_Static::SetIVal("write.surfacecurve.mode", 0);  // curves in space suffice
-    Interface_Static::SetCVal("write.step.product.name", "part");
+    STEPControl_Writer writer;                                // takes the unit now
     if (writer.Transfer(part.shape, STEPControl_AsIs) != IFSelect_RetDone)
       throw InputError("write STEP: OpenCASCADE cannot represent this shape");
     const Handle(StepData_StepModel) model = writer.Model();
-    APIHeaderSection_MakeHeader header(model);
     const auto text = [](const char* t) { return new TCollection_HAsciiString(t); };
+    for (int i = 1; i <= model->NbEntities(); ++i) {
+      const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+      if (product.IsNull()) continue;
+      product->SetId(text("part"));  // OpenCASCADE counts the products of the process
+      product->SetName(text("part"));
+    }
+    APIHeaderSection_MakeHeader header(model);
     header.SetName(text("part"));
     header.SetTimeStamp(text("1970-01-01T00:00:00"));  // the same part, the same bytes
     header.SetAuthorValue(1, text(""));
