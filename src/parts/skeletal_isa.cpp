@@ -290,10 +290,10 @@ void add_packet(const Query& query, const TrianglePacket& packet, Complex& total
   const double steep = query.inverse_sigma * query.inverse_sigma;
   const Complex L = {-2.0 * t * u - (t - 1.0) * steep - inverse, -2.0 * u};
   const Lanes uu = u * u;
-  const Complex slope_of_L = {-2.0 * (1.0 - t * t) * uu - steep + inverse * inverse, 4.0 * t * uu};
+  const Complex slope_of_l = {-2.0 * (1.0 - t * t) * uu - steep + inverse * inverse, 4.0 * t * uu};
   Complex bend = times(L, L);  // psi2 / psi t^2
-  bend.re += slope_of_L.re - L.re * inverse;
-  bend.im += slope_of_L.im - L.im * inverse;
+  bend.re += slope_of_l.re - L.re * inverse;
+  bend.im += slope_of_l.im - L.im * inverse;
   const Lanes by_psi1 = (square + slope) * inverse, by_psi2 = cubic * inverse * inverse;
   const Complex factor = {first + trace + by_psi1 * L.re + by_psi2 * bend.re,
                           by_psi1 * L.im + by_psi2 * bend.im};

@@ -18,7 +18,8 @@ struct SkeletalKernel {
   double sigma;
   double longest;  ///< t beyond which the kernel counts as nothing
   /// The largest error, as a share of the peak, with which a cluster counts by its moments and a
-  /// triangle by the rule of degree 2; the error of those that count by the rule of degree 5 instead.
+  /// triangle by the rule of degree 2; the error of those that count by the rule of degree 5
+  /// instead.
   double allowed, allowed_degree_five;
   /// Int_t^longest of the kernel, as Chebyshev series in the variable (1 / t - middle) / half.
   double middle, half;

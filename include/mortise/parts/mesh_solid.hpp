@@ -33,8 +33,8 @@ struct NearestPoints {
 /// distances are to the mesh, buried parts of it included); the holes of an open
 /// mesh are closed by a surface without creases.
 ///
-/// Holds the mesh and a search tree of about 300 bytes per triangle; copies share both. Safe to
-/// call from several threads at once.
+/// Holds the mesh and a search tree, together about 250 bytes per triangle; copies share both. Safe
+/// to call from several threads at once.
 class MeshSolid : public Solid {
  public:
   /// @throws InputError if there is no triangle, an index is out of range, a vertex in use is not
