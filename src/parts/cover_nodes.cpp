@@ -47,8 +47,6 @@ class NodeBits {
   std::vector<std::uint64_t> words_;
 };
 
-GridBall grown(const GridBall& ball, double growth) { return {ball.center, ball.radius + growth}; }
-
 std::int64_t gain(const NodeField& field, const NodeBits& open, const GridBall& ball) {
   std::int64_t sum = 0;
   for_rows_in(field, ball,
@@ -56,10 +54,12 @@ std::int64_t gain(const NodeField& field, const NodeBits& open, const GridBall& 
   return sum;
 }
 
+}  // namespace
+
 // The ball that holds most nodes not yet held, again and again. What a ball adds only shrinks, so a
 // ball that still leads after a recount is the best one.
-std::vector<std::size_t> greedy_cover(const NodeField& field, const std::vector<GridBall>& balls,
-                                      double growth, int threads) {
+std::vector<std::size_t> cover_nodes(const NodeField& field, const std::vector<GridBall>& balls,
+                                     int threads) {
   NodeBits open(field);
   std::int64_t left = open.count();
   using Entry = std::pair<std::int64_t, std::size_t>;
@@ -70,14 +70,14 @@ std::vector<std::size_t> greedy_cover(const NodeField& field, const std::vector<
   constexpr std::size_t kChunk = 256;
   parallel_for((balls.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
     for (std::size_t i = chunk * kChunk; i < std::min(balls.size(), (chunk + 1) * kChunk); ++i)
-      entries[i] = {gain(field, open, grown(balls[i], growth)), i};
+      entries[i] = {gain(field, open, balls[i]), i};
   });
   std::priority_queue<Entry, std::vector<Entry>, decltype(later)> queue(later, std::move(entries));
   std::vector<std::size_t> chosen;
   while (left > 0 && !queue.empty()) {
     const std::size_t i = queue.top().second;
     queue.pop();
-    const GridBall ball = grown(balls[i], growth);
+    const GridBall& ball = balls[i];
     const std::int64_t now = gain(field, open, ball);
     if (now == 0) continue;
     if (!queue.empty() && later({now, i}, queue.top())) {
@@ -90,37 +90,6 @@ std::vector<std::size_t> greedy_cover(const NodeField& field, const std::vector<
     chosen.push_back(i);
   }
   return chosen;
-}
-
-}  // namespace
-
-std::vector<std::size_t> cover_nodes(const NodeField& field, const std::vector<GridBall>& balls,
-                                     double growth, int threads) {
-  const std::vector<std::size_t> chosen = greedy_cover(field, balls, growth, threads);
-  // Later choices may have made earlier ones needless: smallest first, drop each ball whose nodes
-  // are all held by another.
-  std::vector<std::int32_t> holders(field.depth.size(), 0);
-  const auto for_inside = [&](std::size_t i, const auto& call) {
-    for_rows_in(field, grown(balls[i], growth), [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t k = first; k <= last; ++k)
-        if (field.depth[k] > 0.0F) call(holders[k]);
-    });
-  };
-  for (const std::size_t i : chosen) for_inside(i, [](std::int32_t& n) { ++n; });
-  std::vector<std::size_t> order(chosen);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return balls[a].radius != balls[b].radius ? balls[a].radius < balls[b].radius : a > b;
-  });
-  std::vector<std::size_t> kept;
-  for (const std::size_t i : order) {
-    bool needed = false;
-    for_inside(i, [&](std::int32_t n) { needed = needed || n == 1; });
-    if (needed)
-      kept.push_back(i);
-    else
-      for_inside(i, [](std::int32_t& n) { --n; });
-  }
-  return kept;
 }
 
 double covered_part(const NodeField& field, const std::vector<GridBall>& balls) {

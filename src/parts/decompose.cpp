@@ -3,13 +3,13 @@
 #include "mortise/parts/decompose.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/uncontained_balls.hpp"
+#include "parts/boundary_cells.hpp"
 #include "parts/inner_balls.hpp"
 #include "parts/node_field.hpp"
 #include "parts/reduce_balls.hpp"
@@ -45,11 +45,12 @@ std::vector<GridBall> inner_balls(const NodeField& field, const DecomposeOptions
 }
 
 std::vector<std::size_t> reduced(const NodeField& field, const std::vector<GridBall>& balls,
-                                 double growth, const DecomposeOptions& options) {
+                                 const std::vector<GridBall>& grown, double growth,
+                                 const DecomposeOptions& options) {
   std::vector<std::size_t> kept(balls.size());
   std::iota(kept.begin(), kept.end(), std::size_t{0});
   if (options.reduction == Reduction::kCover)
-    kept = parts::cover_nodes(field, balls, growth, options.threads);
+    kept = parts::cover_nodes(field, grown, options.threads);
   if (options.reduction == Reduction::kContainment) {
     Eigen::Matrix4Xd points(4, static_cast<Eigen::Index>(balls.size()));
     for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -57,9 +58,6 @@ std::vector<std::size_t> reduced(const NodeField& field, const std::vector<GridB
     const std::vector<Eigen::Index> rest = uncontained_balls(points, growth);
     kept.assign(rest.begin(), rest.end());
   }
-  std::sort(kept.begin(), kept.end(), [&](std::size_t a, std::size_t b) {
-    return balls[a].radius != balls[b].radius ? balls[a].radius > balls[b].radius : a < b;
-  });
   return kept;
 }
 
@@ -86,7 +84,7 @@ Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& option
   const NodeField field = parts::node_field(grid);
   Decomposition result;
   result.spacing = field.spacing;
-  result.epsilon = 0.5 * std::numbers::sqrt3 * field.spacing;
+  result.epsilon = parts::kHalfDiagonal * field.spacing;
   result.nodes = field.count();
   result.inside = std::count_if(field.depth.begin(), field.depth.end(),
                                 [](float depth) { return depth > 0.0F; });
@@ -95,10 +93,18 @@ Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& option
     throw InputError("decompose: none of the grid's " + std::to_string(result.nodes) +
                      " nodes lies inside the solid; take a finer grid");
   const std::vector<GridBall> inner = inner_balls(field, options);
-  const double growth = options.expansion * 0.5 * std::numbers::sqrt3;  // in spacings
-  std::vector<GridBall> knots;
-  for (const std::size_t i : reduced(field, inner, growth, options))
-    knots.push_back({inner[i].center, inner[i].radius + growth});
+  const double growth = options.expansion * parts::kHalfDiagonal;  // in spacings
+  std::vector<GridBall> grown(inner), knots;
+  for (GridBall& ball : grown) ball.radius += growth;
+  for (const std::size_t i : reduced(field, inner, grown, growth, options))
+    knots.push_back(grown[i]);
+  const parts::BoundaryPoints boundary(field);
+  const std::vector<GridBall> more = parts::boundary_balls(boundary, knots, grown, growth);
+  knots.insert(knots.end(), more.begin(), more.end());
+  if (options.reduction == Reduction::kCover)
+    knots = parts::without_needless(field, boundary, std::move(knots));
+  std::stable_sort(knots.begin(), knots.end(),
+                   [](const GridBall& a, const GridBall& b) { return a.radius > b.radius; });
   result.coverage = parts::covered_part(field, knots);
 
   result.inner.resize(4, static_cast<Eigen::Index>(inner.size()));

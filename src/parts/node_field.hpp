@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "mortise/parts/distance_grid.hpp"
 
 namespace mortise::parts {
+
+inline constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt3;  // of a cell, in spacings
 
 // Nodes and how deep in the solid they lie.
 struct NodeField : GridNodes {

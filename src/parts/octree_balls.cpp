@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inner balls about the cells of an octree.
-#include <numbers>
 
 #include "parts/inner_balls.hpp"
 
 namespace mortise::parts {
 namespace {
-
-constexpr double kHalfDiagonal = 0.5 * std::numbers::sqrt3;  // of a unit cell
 
 struct Octree {
   const NodeField& field;

@@ -8,10 +8,10 @@
 
 namespace mortise::parts {
 
-// Few of the balls, their radii grown by `growth` (spacings), that hold every node inside the
-// solid which all of them hold. Returns their indices.
+// Few of the balls that hold every node inside the solid which all of them hold, by greedy set
+// cover. Returns their indices.
 std::vector<std::size_t> cover_nodes(const NodeField& field, const std::vector<GridBall>& balls,
-                                     double growth, int threads);
+                                     int threads);
 
 // Part of the nodes inside the solid that lie in the balls.
 double covered_part(const NodeField& field, const std::vector<GridBall>& balls);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Trees of balls: grouping by halves along the longest side, enclosing balls, nearest ball.
+#include "mortise/parts/sphere_tree.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/core/threads.hpp"
+#include "parts/smallest_enclosing_ball.hpp"
+
+namespace mortise {
+namespace {
+
+// The nodes of one level; `order` puts a group's members next to each other.
+struct Level {
+  Eigen::Matrix4Xd balls;
+  std::vector<int> first, count;  // children in the level below; for leaves the ball given and 0
+};
+
+// Splits order[first, last) into groups of `arity` near balls (the last of all may be smaller) and
+// appends their ends.
+void group(const Eigen::Matrix4Xd& balls, std::vector<int>& order, int first, int last, int arity,
+           std::vector<int>& ends) {
+  const int count = last - first;
+  if (count <= arity) {
+    ends.push_back(last);
+    return;
+  }
+  Eigen::AlignedBox3d box;
+  for (int i = first; i < last; ++i) box.extend(Eigen::Vector3d(balls.col(order[i]).head<3>()));
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const int groups = (count + arity - 1) / arity;
+  const int middle = first + groups / 2 * arity;
+  std::nth_element(
+      order.begin() + first, order.begin() + middle, order.begin() + last, [&](int a, int b) {
+        return balls(axis, a) != balls(axis, b) ? balls(axis, a) < balls(axis, b) : a < b;
+      });
+  group(balls, order, first, middle, arity, ends);
+  group(balls, order, middle, last, arity, ends);
+}
+
+// Puts the level's nodes in groups and returns the level above.
+Level parents_of(Level& level, int arity) {
+  const auto count = static_cast<int>(level.balls.cols());
+  std::vector<int> order(count), ends;
+  std::iota(order.begin(), order.end(), 0);
+  group(level.balls, order, 0, count, arity, ends);
+  Level sorted, above;
+  sorted.balls.resize(4, count);
+  for (int i = 0; i < count; ++i) {
+    sorted.balls.col(i) = level.balls.col(order[i]);
+    sorted.first.push_back(level.first[order[i]]);
+    sorted.count.push_back(level.count[order[i]]);
+  }
+  level = std::move(sorted);
+  above.balls.resize(4, static_cast<Eigen::Index>(ends.size()));
+  int first = 0;
+  for (std::size_t g = 0; g < ends.size(); ++g) {
+    above.balls.col(static_cast<Eigen::Index>(g)) =
+        parts::smallest_enclosing_ball(level.balls.middleCols(first, ends[g] - first));
+    above.first.push_back(first);
+    above.count.push_back(ends[g] - first);
+    first = ends[g];
+  }
+  return above;
+}
+
+double distance(const SphereTree& tree, const Eigen::Vector3d& p,
+                std::vector<std::pair<double, int>>& stack) {
+  const auto bound = [&](int node) {
+    return (tree.balls.col(node).head<3>() - p).norm() - tree.balls(3, node);
+  };
+  double best = std::numeric_limits<double>::infinity();
+  stack.assign(1, {bound(0), 0});
+  while (!stack.empty()) {
+    const auto [low, node] = stack.back();
+    stack.pop_back();
+    if (low >= best) continue;
+    const int count = tree.children[node];
+    if (count == 0) {
+      best = low;
+      continue;
+    }
+    const auto base = static_cast<std::ptrdiff_t>(stack.size());
+    for (int c = tree.first_child[node]; c < tree.first_child[node] + count; ++c)
+      if (const double d = bound(c); d < best) stack.emplace_back(d, c);
+    std::sort(stack.begin() + base, stack.end(), std::greater<>());  // nearest on top
+  }
+  return best;
+}
+
+}  // namespace
+
+SphereTree sphere_tree(const Eigen::Matrix4Xd& balls, const SphereTreeOptions& options) {
+  if (options.arity < 2 || options.arity > 64)
+    throw InputError("sphere_tree: arity must be 2 to 64, got " + std::to_string(options.arity));
+  if (balls.cols() == 0) throw InputError("sphere_tree: at least one ball expected, got none");
+  if (!balls.allFinite() || (balls.row(3).array() < 0.0).any())
+    throw InputError("sphere_tree: balls must be finite with radii >= 0");
+  std::vector<Level> levels(1);
+  levels[0].balls = balls;
+  levels[0].first.resize(balls.cols());
+  std::iota(levels[0].first.begin(), levels[0].first.end(), 0);
+  levels[0].count.assign(balls.cols(), 0);
+  while (levels.back().balls.cols() > 1) levels.push_back(parents_of(levels.back(), options.arity));
+
+  SphereTree tree;
+  Eigen::Index size = 0;
+  for (const Level& level : levels) size += level.balls.cols();
+  tree.balls.resize(4, size);
+  tree.first_child.resize(size);
+  tree.children.resize(size);
+  tree.leaf.setConstant(size, -1);
+  Eigen::Index at = 0;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    const Eigen::Index count = level->balls.cols();
+    tree.balls.middleCols(at, count) = level->balls;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const bool leaf = level->count[i] == 0;
+      tree.children[at + i] = level->count[i];
+      tree.first_child[at + i] = leaf ? -1 : static_cast<int>(at + count) + level->first[i];
+      if (leaf) tree.leaf[at + i] = level->first[i];
+    }
+    at += count;
+  }
+  return tree;
+}
+
+Eigen::VectorXd distance_to_union(const SphereTree& tree, const Eigen::Matrix3Xd& points,
+                                  int threads) {
+  if (tree.size() == 0) throw InputError("distance_to_union: a tree with a ball expected");
+  if (!points.allFinite()) throw InputError("distance_to_union: finite points expected");
+  Eigen::VectorXd result(points.cols());
+  constexpr Eigen::Index kChunk = 512;
+  const Eigen::Index chunks = (points.cols() + kChunk - 1) / kChunk;
+  parallel_for(static_cast<std::size_t>(chunks), threads, [&](std::size_t chunk, int) {
+    std::vector<std::pair<double, int>> stack;
+    const Eigen::Index first = static_cast<Eigen::Index>(chunk) * kChunk;
+    for (Eigen::Index i = first; i < std::min(points.cols(), first + kChunk); ++i)
+      result[i] = distance(tree, points.col(i), stack);
+  });
+  return result;
+}
+
+}  // namespace mortise
