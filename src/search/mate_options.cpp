@@ -11,14 +11,12 @@ MateOptions mate_preset(const std::string& name) {
   MateOptions options;
   if (name == "default") return options;
   if (name == "fast") {
-    options.rotations = 600;
-    options.spacing = 0.04;
+    options.rotations = 60;
     return options;
   }
   if (name == "thorough") {
-    options.rotations = 7200;
-    options.spacing = 0.02;
-    options.polished = 500;
+    options.rotations = 3600;
+    options.polished = 200;
     return options;
   }
   throw InputError("preset '" + name + "' is not one of fast, default, thorough");

@@ -23,7 +23,8 @@ using testing_bodies::random_motion;
 MateOptions small_options() {
   MateOptions options;
   options.rotations = 600;
-  options.spacing = 0.06;
+  options.spacing = 0.05;
+  options.skin = 0.06;
   options.detail = 0.03;
   options.samples = 1000;
   options.polished = 60;
