@@ -9,8 +9,7 @@
 //   v.(features / spread),
 //
 // with q the quality of a pose (the RMSD terms of DockQ) and w = 1 over the share of such poses in
-// the sample. Rounds repeat this with the potential of the round before to find the best others;
-// in the last ones the poses are those that docking reports, clustered and polished.
+// the sample. Rounds repeat this with the potential of the round before to find the best others.
 // Besides the potential of all pairs it writes one for each fold, fitted without the pairs whose
 // row number modulo the folds is the fold's.
 #include <lbfgs.h>
@@ -49,7 +48,7 @@ int pair_index(int a, int b) {
 
 struct Options {
   std::string pairs, output = "contacts.txt";
-  int rounds = 2, polish_rounds = 1, folds = 5, hardest = 2500, sample = 8, threads = 0;
+  int rounds = 2, folds = 5, hardest = 2500, sample = 8, threads = 0;
   double penalty = 50.0;
 };
 
@@ -133,8 +132,8 @@ void fill_features(const Cells& fixed, const TypedPoints& moving, const RigidMot
 }
 
 Choice sample_pair(const std::vector<std::string>& row, const std::string& folder,
-                   const std::string& potential_file, bool rescore, bool polish,
-                   const Options& options, std::uint32_t seed) {
+                   const std::string& potential_file, bool rescore, const Options& options,
+                   std::uint32_t seed) {
   const auto read = [&](int column) {
     return read_molecule(parse_molecule_spec(folder + row[column])).molecule;
   };
@@ -151,12 +150,10 @@ Choice sample_pair(const std::vector<std::string>& row, const std::string& folde
   DockOptions dock;
   dock.threads = 1;
   dock.rescore = rescore;
+  dock.polish = false;  // a pose's features are those of the place where it is ranked
   dock.potential = potential_file;
-  dock.polish = polish;
-  if (!polish) {
-    dock.poses = dock.rotations * dock.search.per_rotation;  // all of them, best first
-    dock.cluster_radius = 0.0;
-  }
+  dock.poses = dock.rotations * dock.search.per_rotation;  // all of them, best first
+  dock.cluster_radius = 0.0;
   Docking docking(fixed, moving, dock);
   docking.search().run();
   const PoseList poses = docking.rank();
@@ -275,7 +272,7 @@ std::string fold_path(const std::string& output, int fold) {
 void run(const Options& options) {
   const auto rows = read_table(options.pairs);
   const std::string folder = std::filesystem::path(options.pairs).parent_path().string() + "/";
-  for (int round = 0; round < options.rounds + options.polish_rounds; ++round) {
+  for (int round = 0; round < options.rounds; ++round) {
     std::vector<Choice> choices(rows.size());
     std::size_t done = 0;
     parallel_for(rows.size(), options.threads, [&](std::size_t i, int) {
@@ -283,7 +280,7 @@ void run(const Options& options) {
       choices[i] = sample_pair(
           rows[i], folder,
           round == 0 ? "" : fold_path(options.output, static_cast<int>(i) % options.folds),
-          round > 0, round >= options.rounds, options, static_cast<std::uint32_t>(i));
+          round > 0, options, static_cast<std::uint32_t>(i));
       std::fprintf(stderr, "\rround %d: %zu of %zu pairs ", round + 1, ++done, rows.size());
     });
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFeatures);
@@ -321,8 +318,6 @@ int main(int argc, char** argv) {
   app.add_option("pairs", options.pairs, "Table as mortise benchmark takes it")->required();
   app.add_option("-o,--output", options.output, "Potential to write")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Searches and fits")->capture_default_str();
-  app.add_option("--polish-rounds", options.polish_rounds, "More of them, with polished poses")
-      ->capture_default_str();
   app.add_option("--folds", options.folds, "Folds of the cross-validation")->capture_default_str();
   app.add_option("--hardest", options.hardest, "Best-scored wrong poses kept of each pair")
       ->capture_default_str();

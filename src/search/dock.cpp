@@ -92,7 +92,7 @@ struct Docking::Impl {
 
   void make_maps(const Molecule& fixed, const Channel& shape);
   void polish(std::vector<Pose>& poses) const;
-  [[nodiscard]] PoseList best_of_clusters(const PoseList& all) const;
+  [[nodiscard]] PoseList best_of_clusters(const PoseList& all, std::size_t count) const;
 };
 
 void Docking::Impl::make_maps(const Molecule& fixed, const Channel& shape) {
@@ -115,6 +115,8 @@ void Docking::Impl::make_maps(const Molecule& fixed, const Channel& shape) {
   placed.emplace(moving_points, moving_knots.points.topRows<3>(), moving_knots.weights.real());
 }
 
+// Moves the poses and leaves them the scores by which they were found: ranking by the score at the
+// end favours the wrong poses that had most to gain (docs/ranking.md).
 void Docking::Impl::polish(std::vector<Pose>& poses) const {
   std::vector<RigidMotion> starts;
   starts.reserve(poses.size());
@@ -122,26 +124,20 @@ void Docking::Impl::polish(std::vector<Pose>& poses) const {
   const std::vector<PolishedPose> polished =
       polish_poses([&](const RigidMotion& m) { return maps->smooth_score(*placed, m); },
                    {placed->centre, placed->gyration}, starts, {.threads = options.threads});
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    Pose& pose = poses[i];
-    pose.moving_in_fixed = polished[i].moving_in_fixed;
-    const auto [shape, contact] = maps->smooth_terms(*placed, pose.moving_in_fixed);
-    pose.channels[0] = shape;
-    if (options.rescore) pose.channels[1] = contact;
-    pose.score = std::accumulate(pose.channels.begin(), pose.channels.end(), 0.0);
-  }
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    poses[i].moving_in_fixed = polished[i].moving_in_fixed;
 }
 
-// Ranks the poses and keeps the best of each cluster, as many as are reported.
-PoseList Docking::Impl::best_of_clusters(const PoseList& all) const {
+// Ranks the poses and keeps the best of each cluster, `count` at most.
+PoseList Docking::Impl::best_of_clusters(const PoseList& all, std::size_t count) const {
   const std::vector<std::size_t> order =
       ranking(all.poses.size(), [&](std::size_t i) { return all.poses[i].score; });
   std::vector<RigidMotion> motions;
   motions.reserve(order.size());
   for (const std::size_t i : order) motions.push_back(all.poses[i].moving_in_fixed);
-  const Clusters clusters = cluster_poses(
-      motions, moving_knots.points.topRows<3>(),
-      {.radius = options.cluster_radius, .max_clusters = static_cast<std::size_t>(options.poses)});
+  const Clusters clusters =
+      cluster_poses(motions, moving_knots.points.topRows<3>(),
+                    {.radius = options.cluster_radius, .max_clusters = count});
   PoseList best{all.channel_names, {}};
   for (const std::size_t f : clusters.founders) {
     best.poses.push_back(all.poses[order[f]]);
@@ -206,10 +202,11 @@ PoseList Docking::rank() const {
                  const std::size_t end = std::min(candidates.size(), (piece + 1) * kPiece);
                  for (std::size_t i = piece * kPiece; i < end; ++i) score(i);
                });
-  PoseList best = run.best_of_clusters(all);
-  if (!run.options.polish) return best;
+  const auto count = static_cast<std::size_t>(run.options.poses);
+  if (!run.options.polish) return run.best_of_clusters(all, count);
+  PoseList best = run.best_of_clusters(all, count + count / 4);  // some will fall together
   run.polish(best.poses);
-  return run.best_of_clusters(best);
+  return run.best_of_clusters(best, count);
 }
 
 }  // namespace mortise

@@ -48,8 +48,10 @@ ScoreMaps::ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential
     throw InputError("score maps: shape: a coordinate or weight is not finite");
   Eigen::Matrix3Xd all(3, fixed.points.cols() + shape_points.cols());
   all << fixed.points, shape_points;
-  // Two steps more, so that the cubics' stencils at the border see zeros only.
-  lay_out(all, std::max(kContactRange, shape_kernel.range) + 2.0 * spacing_);
+  // Two steps more, so that the cubics' stencils at the border see zeros only; whole steps, so that
+  // grid points and linear scores are those of the maps without a shape.
+  const double margin = std::max(kContactRange, shape_kernel.range) + 2.0 * spacing_;
+  lay_out(all, kContactRange + std::ceil((margin - kContactRange) / spacing_) * spacing_);
   values_.resize((types_ + 1) * cells());
   fill_contacts(fixed, potential, options.threads);
   fill_shape(shape_points, shape_weights, shape_kernel, options.threads);
