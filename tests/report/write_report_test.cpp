@@ -65,7 +65,7 @@ TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
 TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
   const ScratchDirectory scratch;
   const ReportBodies bodies = plate_and_pin();
-  const Run run = report_run(bodies, 4);
+  const mortise::Run run = report_run(bodies, 4);
   const ReportFiles result = write_report(run, bodies, scratch / "parts", {.structures = 2});
   EXPECT_THAT(result.files, Contains("poses/pose_0002.stl"));
   EXPECT_EQ(read_whole_file(scratch / "parts/poses/pose_0002.stl"),

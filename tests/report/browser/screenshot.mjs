@@ -7,7 +7,7 @@ const [page, picture, work] = process.argv.slice(2).map((path) => resolve(path))
 const browser = await launch(work, (why) => {
   throw new Error(why);
 });
-const tab = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
+const tab = await (await browser.newContext({ viewport: { width: 1240, height: 780 } })).newPage();
 tab.setDefaultTimeout(120_000);
 await tab.goto(`file://${page}`);
 await tab.waitForFunction(() => globalThis.mortise?.viewer?.surfaceReady());
