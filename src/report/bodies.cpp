@@ -8,6 +8,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
+#include "mortise/parts/read_part.hpp"
 #include "report/heavy_atoms.hpp"
 
 namespace mortise {
@@ -68,8 +69,18 @@ ReportBody read_body(const BodyRecord& body, const Provenance& provenance, const
                      const std::string& kind, const std::string& found, bool force) {
   ReportBody read;
   read.found = found;
-  if (kind != "dock") throw InputError("report: expected a docking run, got a " + kind + " run");
-  read.molecule = read_input_molecule(body, provenance, name, {found, force});
+  if (kind == "mate") {
+    ReadPartOptions options;
+    options.repair.allow_open = true;  // what a run could use, a report can show
+    ReadPartResult part = read_part(found, options);
+    read.mesh = std::move(part.mesh);
+    read.unit = part.unit;
+  } else if (kind == "dock") {
+    read.molecule = read_input_molecule(body, provenance, name, {found, force});
+    read.unit = "angstrom";
+  } else {
+    throw InputError("report: expected a docking or a mating run, got a " + kind + " run");
+  }
   return read;
 }
 

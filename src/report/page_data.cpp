@@ -83,6 +83,7 @@ Json body_json(const BodyRecord& record, const ReportBody& body, const char* rol
                {"path", record.path},         {"spec", record.spec},
                {"sha256", record.sha256},     {"found", body.found},
                {"knots", record.knots.size()}};
+  json["unit"] = body.unit;
   const Eigen::Matrix3Xd points = report_points(body);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 1.0;

@@ -10,6 +10,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/version.hpp"
 #include "mortise/molecules/write_molecule.hpp"
+#include "mortise/parts/format_part.hpp"
 #include "mortise/report/page.hpp"
 #include "mortise/report/pictures.hpp"
 #include "mortise/report/viewer_scripts.hpp"
@@ -46,7 +47,7 @@ std::string json_of(const Run& run) {
   return "{\"poses\": []}\n";
 }
 
-// Both bodies as PDB or, where one has no room in it, both as mmCIF.
+// Both bodies as PDB or, where one has no room in it, both as mmCIF; parts as STL.
 struct StructureText {
   std::string ending;
   std::string fixed;
@@ -55,6 +56,12 @@ struct StructureText {
 
 StructureText structure_texts(const Run& run, const ReportBodies& bodies, std::size_t count) {
   StructureText text;
+  if (bodies.fixed.is_mesh()) {
+    text = {"stl", format_stl(bodies.fixed.mesh), {}};
+    for (std::size_t i = 0; i < count; ++i)
+      text.poses.push_back(format_stl(bodies.moving.mesh, run.poses.poses[i].moving_in_fixed));
+    return text;
+  }
   const Molecule& moving = bodies.moving.molecule;
   try {
     text.ending = "pdb";
@@ -121,6 +128,7 @@ void write_structures(Writer& writer, const Run& run, const ReportBodies& bodies
   make_directory(writer.directory() / "poses");
   const StructureText text = structure_texts(run, bodies, count);
   ViewerFiles files;
+  files.meshes = bodies.fixed.is_mesh();
   files.fixed = "poses/fixed." + text.ending;
   writer.write(files.fixed, text.fixed);
   for (std::size_t i = 0; i < count; ++i) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/parts/format_part.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "sample_report.hpp"
 
@@ -72,6 +73,22 @@ TEST_F(ReportInputs, ThatChangedOrAreGoneAreNamed) {
   expect_error("1hpv_ligand.pdb: the run's moving input is not there");
   fs::rename(scratch_ / "1hpv_receptor.pdb", scratch_ / "elsewhere/of_another_kind.txt");
   expect_error("1hpv_receptor.pdb: the run's fixed input is not there");
+}
+
+TEST_F(ReportInputs, OfPartsAreMeshes) {
+  const ReportBodies made = plate_and_pin();
+  write_file_atomically(scratch_ / "plate.stl", format_stl(made.fixed.mesh));
+  write_file_atomically(scratch_ / "pin.stl", format_stl(made.moving.mesh));
+  run_.kind = "mate";
+  run_.fixed.path = run_.fixed.spec = "plate.stl";
+  run_.moving.path = run_.moving.spec = "pin.stl";
+  run_.fixed.sha256 = sha256_of_file(scratch_ / "plate.stl");
+  run_.moving.sha256 = sha256_of_file(scratch_ / "pin.stl");
+  const ReportBodies bodies = read_report_bodies(run_);
+  ASSERT_TRUE(bodies.moving.is_mesh());
+  EXPECT_EQ(bodies.fixed.mesh.size(), made.fixed.mesh.size());
+  run_.kind = "weigh";
+  EXPECT_THROW((void)read_report_bodies(run_), InputError);
 }
 
 TEST_F(ReportInputs, AreNotSearchedForWhereTheUserSaysWhereTheyAre) {

@@ -9,6 +9,7 @@
 
 #include "apps/program.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/parts/format_part.hpp"
 #include "mortise/report/page.hpp"
 #include "mortise/report/viewer_scripts.hpp"
 #include "sample_report.hpp"
@@ -59,6 +60,18 @@ TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
   EXPECT_THAT(none.files, Not(Contains("poses.pml")));
   EXPECT_EQ(nlohmann::json::parse(read_whole_file(scratch / "none/poses.json"))["poses"].size(),
             0u);
+}
+
+TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
+  const ScratchDirectory scratch;
+  const ReportBodies bodies = plate_and_pin();
+  const mortise::Run run = report_run(bodies, 4);
+  const ReportFiles result = write_report(run, bodies, scratch / "parts", {.structures = 2});
+  EXPECT_THAT(result.files, Contains("poses/pose_0002.stl"));
+  EXPECT_EQ(read_whole_file(scratch / "parts/poses/pose_0002.stl"),
+            format_stl(bodies.moving.mesh, run.poses.poses[1].moving_in_fixed));
+  EXPECT_EQ(read_whole_file(scratch / "parts/poses/fixed.stl"), format_stl(bodies.fixed.mesh));
+  EXPECT_THAT(read_whole_file(scratch / "parts/poses.pml"), Not(HasSubstr("cartoon")));
 }
 
 TEST(WriteReport, RefusesADirectoryThatCannotBe) {

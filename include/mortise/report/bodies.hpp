@@ -19,6 +19,7 @@ struct ReportBody {
   std::string found;  ///< path of the file as it was found now
   Molecule molecule;  ///< input frame; waters left out
   TriangleMesh mesh;  ///< input frame
+  std::string unit;   ///< of the coordinates: "angstrom", "mm", ...; empty = unknown
 
   [[nodiscard]] bool is_mesh() const noexcept { return mesh.size() > 0; }
 };
@@ -38,7 +39,8 @@ struct SearchPlaces {
 
 /// Finds and reads both bodies of a run: where the run says, else by name or contents in the
 /// directories (not below them; only files of the same ending, at most 256 MB each).
-/// @throws FileError naming the body if no file has its contents; as read_molecule
+/// @throws FileError naming the body if no file has its contents; as read_molecule and read_part;
+/// InputError for a run that is neither of molecules nor of parts
 [[nodiscard]] ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places = {});
 
 /// 3 x N points of a body, input frame: heavy atoms, or vertices of the mesh that a triangle uses.

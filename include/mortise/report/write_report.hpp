@@ -21,7 +21,7 @@ struct ReportOptions {
   std::optional<double> cluster_radius = {};
   /// best poses of molecules whose interface is described (interface_columns), unless the run has
   /// these columns; 0 = none; >= 0
-  int interfaces = 200;
+  int interfaces = 50;
   int pictures = 0;  ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
   int threads = 0;   ///< 0 = all cores; never changes the result
 };

@@ -105,7 +105,7 @@ export const checks = {
     await page.keyboard.press('Home');
     await page.locator('#next').click();
     assert.equal(await title(page), 'Pose 2');
-    assert.equal(await page.locator('tr.row[aria-selected="true"] td').first().textContent(), '2');
+    assert.equal(await page.locator('tr.row[aria-current="true"] td').first().textContent(), '2');
     await page.locator('#previous').click();
 
     await page.locator('#filter').selectOption('acceptable');

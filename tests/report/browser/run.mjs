@@ -2,48 +2,17 @@
 // Opens the sample reports in Debian's chromium and uses them: run.mjs PAGES_DIR MANY_DIR SCREENSHOTS_DIR WORK_DIR.
 //
 // Exits with 77, which CTest counts as skipped, where chromium is not installed or npm cannot get playwright-core.
-import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { dirname, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { mkdirSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { launch } from './browser.mjs';
 import { checks } from './checks.mjs';
 
-const here = dirname(fileURLToPath(import.meta.url));
 const [pages, many, screenshots, work] = process.argv.slice(2).map((path) => resolve(path));
-
-function skip(why) {
+const browser = await launch(work, (why) => {
   console.log(`skipped: ${why}`);
   process.exit(77);
-}
-
-function playwright() {
-  const folder = join(work, 'browser-packages');
-  const { version } = JSON.parse(readFileSync(join(here, 'package-lock.json'), 'utf8')).packages['node_modules/playwright-core'];
-  const installed = join(folder, version);
-  if (!existsSync(installed)) {
-    const fresh = `${installed}.${process.pid}`;
-    mkdirSync(fresh, { recursive: true });
-    for (const name of ['package.json', 'package-lock.json', '.npmrc']) cpSync(join(here, name), join(fresh, name));
-    try {
-      execFileSync('npm', ['ci', '--ignore-scripts', '--prefer-offline', '--loglevel=error'], { cwd: fresh, stdio: 'inherit' });
-    } catch (error) {
-      rmSync(fresh, { recursive: true, force: true });
-      skip(`npm did not get playwright-core (${error.message})`);
-    }
-    renameSync(fresh, installed);
-  }
-  return createRequire(join(installed, 'package.json'))('playwright-core');
-}
-
-const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((path) => existsSync(path));
-if (!executablePath) skip('there is no /usr/bin/chromium (Debian package chromium)');
-const { chromium } = playwright();
-mkdirSync(screenshots, { recursive: true });
-const browser = await chromium.launch({
-  executablePath,
-  args: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--no-sandbox'],
 });
+mkdirSync(screenshots, { recursive: true });
 
 /** A report in a page of its own; everything it should not do is collected in `faults`. */
 async function open(name, { scheme = 'light', width = 1440, height = 900 } = {}) {

@@ -10,10 +10,8 @@ const KNOWN = {
   interface_area: { label: 'Interface', unit: '\u00c5\u00b2', digits: 0, good: 'high', about: 'Interface area: half of the buried area' },
   buried_area: { label: 'Buried', unit: '\u00c5\u00b2', digits: 0, good: 'high', about: 'Solvent-accessible area that both bodies lose together' },
   contacts: { label: 'Contacts', digits: 0, good: 'high', about: 'Residue pairs in contact' },
-  residue_contacts: { label: 'Contacts', digits: 0, good: 'high', about: 'Residue pairs in contact' },
   hydrogen_bonds: { label: 'H bonds', digits: 0, good: 'high', about: 'Hydrogen bonds across the interface' },
   clashes: { label: 'Clashes', digits: 0, good: 'low', about: 'Atom pairs that come too close' },
-  shape_complementarity: { label: 'Sc', digits: 2, good: 'high', about: 'Shape complementarity of Lawrence and Colman' },
   sc: { label: 'Sc', digits: 2, good: 'high', about: 'Shape complementarity of Lawrence and Colman' },
   interface_rmsd: { label: 'i-RMSD', unit: '\u00c5', digits: 2, good: 'low', about: 'RMSD of the interface residues\u2019 backbone from the reference complex' },
   ligand_rmsd: { label: 'L-RMSD', unit: '\u00c5', digits: 2, good: 'low', about: 'RMSD of the ligand\u2019s backbone from the reference complex, receptors superposed' },
@@ -23,11 +21,14 @@ const KNOWN = {
   capri: { label: 'CAPRI', digits: 0, good: 'high', classes: ['incorrect', 'acceptable', 'medium', 'high'], about: 'CAPRI quality class' },
   contact_area: { label: 'Contact area', digits: 2, good: 'high', about: 'Area over which the parts touch' },
   penetration_volume: { label: 'Overlap volume', digits: 3, good: 'low', about: 'Volume that both parts would fill' },
+  pull_blocked: { label: 'Held', digits: 2, good: 'low', about: 'Share of the contact that stands against pulling the part out: 0 = it comes free' },
+  placement_largest: { label: 'Error, largest', digits: 3, good: 'low', about: 'Largest distance of a point of the part from its true place' },
+  placement_rms: { label: 'Error, RMS', digits: 3, good: 'low', about: 'RMS distance of the part\u2019s points from their true places' },
   penetration_depth: { label: 'Overlap depth', digits: 3, good: 'low', about: 'How deep one part reaches into the other' },
 };
 
 /** Columns measured against a reference, of which one makes the funnel's axis. */
-export const REFERENCE_COLUMNS = ['interface_rmsd', 'ligand_rmsd', 'placement_error', 'dockq', 'fnat'];
+export const REFERENCE_COLUMNS = ['interface_rmsd', 'ligand_rmsd', 'placement_largest', 'placement_rms', 'dockq', 'fnat'];
 
 const fromBase64 = (text) => {
   const binary = atob(text);
@@ -73,6 +74,15 @@ export async function loadRun() {
   const scoreDigits = largest >= 1000 ? 0 : largest >= 100 ? 1 : largest >= 10 ? 2 : 3;
   run.columns = [column('rank', ranks), ...run.columns.map((c) => ({
     ...column(c.key, c.values, c.group === 'score' ? scoreDigits : undefined), group: c.group }))];
+  // The way out of a mated part is one direction, not three columns; the exploded view follows it.
+  const pull = ['pull_x', 'pull_y', 'pull_z'].map((key) => run.columns.find((c) => c.key === key)?.values);
+  if (pull.every(Boolean)) {
+    run.pull = Array.from({ length: run.count }, (_, i) => {
+      const way = pull.map((values) => values[i]);
+      return Math.hypot(...way) > 0.5 ? way : undefined;  // NaN and the zero vector: none
+    });
+    run.columns = run.columns.filter((c) => !c.key.startsWith('pull_') || c.key === 'pull_blocked');
+  }
   run.column = Object.fromEntries(run.columns.map((c) => [c.key, c]));
   for (const body of run.bodies) {
     if (!body.mesh) continue;

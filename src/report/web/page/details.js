@@ -29,6 +29,7 @@ function bodyRows(body) {
     ['found at', body.found && body.found !== body.path ? code(body.found) : ''],
     ['SHA-256', body.sha256 ? code(body.sha256) : 'not recorded'],
     ['size', size.join(', ')],
+    ['unit', body.mesh ? body.unit || 'not in the file' : ''],
   ];
 }
 

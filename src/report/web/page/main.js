@@ -49,7 +49,7 @@ function showHead(run) {
 
 function showPose(run, pose) {
   byId('viewer-title').textContent = `Pose ${pose + 1}`;
-  const chips = run.columns.filter((c) => ['score', 'interface_rmsd', 'ligand_rmsd', 'dockq', 'shape_complementarity'].includes(c.key))
+  const chips = run.columns.filter((c) => ['score', 'interface_rmsd', 'ligand_rmsd', 'dockq', 'sc', 'contact_area', 'placement_largest'].includes(c.key))
     .map((c) => element('span', {}, `${c.label} `, element('b', {}, valueText(c, pose))));
   const { capri } = run.column;
   if (capri && capri.values[pose] >= 0) chips.push(element('span', { class: `class class-${valueText(capri, pose)}` }, valueText(capri, pose)));

@@ -114,7 +114,7 @@ export function makeTable(run, select) {
     const rows = [];
     for (let row = first; row < last; ++row) {
       const pose = order[row];
-      rows.push(element('tr', { class: 'row', 'data-pose': pose, 'aria-rowindex': row + 2, 'aria-selected': pose === selected ? 'true' : 'false' },
+      rows.push(element('tr', { class: 'row', 'data-pose': pose, 'aria-rowindex': row + 2, 'aria-current': pose === selected ? 'true' : 'false' },
         ...run.columns.map((c) => cell(c, pose))));
     }
     body.replaceChildren(pad(first), ...rows, pad(order.length - last));
@@ -122,7 +122,7 @@ export function makeTable(run, select) {
 
   function show(pose) {
     selected = pose;
-    for (const row of body.querySelectorAll('tr.row')) row.setAttribute('aria-selected', String(Number(row.dataset.pose) === pose));
+    for (const row of body.querySelectorAll('tr.row')) row.setAttribute('aria-current', String(Number(row.dataset.pose) === pose));
     const row = place[pose];
     if (row < 0) return;
     const head = 34;
