@@ -65,6 +65,7 @@ class Surface {
     });
     // The closest hide most: circles then vanish after few of them.
     std::vector<std::pair<double, std::int32_t>> order;
+    order.reserve(near.size());
     for (const std::int32_t j : near)
       order.emplace_back((grown_.centres.col(j) - grown_.centres.col(i)).norm() - grown_.radii[j],
                          j);
@@ -157,10 +158,10 @@ class Surface {
     const double R = grown_.radii[i];
     for (const std::int32_t j : near) {
       const Eigen::Vector3d d = grown_.centres.col(j) - grown_.centres.col(i);
-      const double R_j = grown_.radii[j], d_sq = d.squaredNorm(), length = std::sqrt(d_sq);
-      if (length <= R_j - R) return;    // i lies within j
-      if (length <= R - R_j) continue;  // j within i
-      caps.push_back({d, (R * R + d_sq - R_j * R_j) / (2.0 * R)});
+      const double Rj = grown_.radii[j], d_sq = d.squaredNorm(), length = std::sqrt(d_sq);
+      if (length <= Rj - R) return;    // i lies within j
+      if (length <= R - Rj) continue;  // j within i
+      caps.push_back({d, (R * R + d_sq - Rj * Rj) / (2.0 * R)});
     }
     const Eigen::Matrix3Xd points = lattice(radii_[i]);
     const double area =

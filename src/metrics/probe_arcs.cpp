@@ -51,11 +51,11 @@ Eigen::Vector3d ProbeCircle::radial(double angle) const {
 bool probe_circle(const GrownBalls& balls, std::int32_t i, std::int32_t j, ProbeCircle& circle) {
   const Eigen::Vector3d step = balls.centres.col(j) - balls.centres.col(i);
   const double d_sq = step.squaredNorm(), d = std::sqrt(d_sq);
-  const double R_i = balls.radii[i], R_j = balls.radii[j];
-  if (d >= R_i + R_j || d <= std::abs(R_i - R_j)) return false;
-  circle.from_i = (d_sq + R_i * R_i - R_j * R_j) / (2.0 * d);
+  const double Ri = balls.radii[i], Rj = balls.radii[j];
+  if (d >= Ri + Rj || d <= std::abs(Ri - Rj)) return false;
+  circle.from_i = (d_sq + Ri * Ri - Rj * Rj) / (2.0 * d);
   circle.from_j = d - circle.from_i;
-  const double radius_sq = R_i * R_i - circle.from_i * circle.from_i;
+  const double radius_sq = Ri * Ri - circle.from_i * circle.from_i;
   if (!(radius_sq > 0.0)) return false;
   circle.radius = std::sqrt(radius_sq);
   circle.axis = step / d;

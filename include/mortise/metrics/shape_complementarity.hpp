@@ -13,7 +13,7 @@ namespace mortise {
 /// N radii for Sc, angstrom: united atoms of the AMBER force field (S. J. Weiner et al., J. Am.
 /// Chem. Soc. 106 (1984) 765-784; R* of its atom types): CH3 2.00, CH2 1.925, CH and flat C 1.85,
 /// N 1.75 (NZ of Lys 1.85), O 1.60, OH 1.65, S 2.00, P 2.10; outside amino acids C 1.90, N 1.75,
-/// O 1.65, S 2.00, P 2.10; other elements element_radius(). docs/ranking.md has why not
+/// O 1.65, S 2.00, P 2.10; other elements element_radius(). docs/metrics.md has why not
 /// atom_radii(). Hydrogens get what their element has: leave them out.
 [[nodiscard]] Eigen::VectorXd complementarity_radii(const Molecule& molecule);
 
