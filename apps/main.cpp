@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   mortise::app::add_benchmark(program);
+  mortise::app::add_decompose(program);
   mortise::app::add_dock(program);
   mortise::app::add_evaluate(program);
   mortise::app::add_export(program);

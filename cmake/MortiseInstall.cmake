@@ -2,6 +2,7 @@
 # Installs the library, its headers and the program, and exports mortise::mortise.
 include(CMakePackageConfigHelpers)
 install(TARGETS mortise EXPORT mortise-targets)
+install(TARGETS mortise_step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS mortise_program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/mortise ${PROJECT_BINARY_DIR}/include/mortise
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Making a closed, outward surface of triangles as they come out of a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mortise/parts/triangle_mesh.hpp"
+
+namespace mortise {
+
+struct RepairOptions {
+  bool allow_open = false;  ///< accept a surface that cannot be closed; its inside is then a matter
+                            ///< of the winding number
+  double merge_tolerance = 1e-6;  ///< points of open edges nearer than this are one; part of the
+                                  ///< bounding box's diagonal, [0, 0.01]
+  double largest_hole = 0.25;     ///< longest extent of a hole that is filled; part of the diagonal
+  bool find_self_intersections = true;  ///< look for triangles that cross; costs about as much as
+                                        ///< everything else
+};
+
+struct RepairResult {
+  TriangleMesh mesh;                   ///< no vertex unused, no triangle without area
+  bool closed = false;                 ///< every edge is walked once each way by its triangles
+  double volume = 0.0;                 ///< enclosed, cubic units of the mesh; > 0 if closed
+  long self_intersections = 0;         ///< pairs of triangles that cross; 0 if not looked for
+  std::vector<std::string> decisions;  ///< what was changed or found, one line each; empty: nothing
+};
+
+/// Merges equal points, drops triangles without area and repeated ones, turns the triangles of each
+/// shell the same way and outward (a shell inside another one keeps its side, so that a cavity
+/// stays a cavity), merges points across seams and fills small holes.
+///
+/// Edges of more than two triangles and crossing triangles are kept and reported: inside is where
+/// the winding number is not zero.
+/// @param soup  triangles that may or may not share vertices
+/// @throws InputError if a vertex is not finite, an index is out of range, nothing is left, the
+///         surface has one side only, it cannot be closed (the number of open edges, the first one,
+///         crossing triangles), unless options.allow_open, or its volume is zero
+/// Time O(T log T), T triangles.
+[[nodiscard]] RepairResult repair_mesh(const TriangleMesh& soup, const RepairOptions& options = {});
+
+}  // namespace mortise

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Readers of mesh formats: bytes in, triangles as they stand in the file out.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mortise/parts/triangle_mesh.hpp"
+
+namespace mortise::parts {
+
+enum class MeshFormat { kStlAscii, kStlBinary, kObj, kPly, kOff, kStep };
+
+/// What the content is, whatever the name; @throws FileError if it is none of them.
+[[nodiscard]] MeshFormat detect_format(const std::string& path, std::string_view bytes);
+
+/// The whole file. @throws FileError if it is missing, a directory, unreadable or empty
+[[nodiscard]] std::string read_bytes(const std::string& path);
+
+/// @throws FileError if the file is cut off or malformed; a note is a line for the user
+[[nodiscard]] TriangleMesh read_stl_ascii(const std::string& path, std::string_view bytes);
+[[nodiscard]] TriangleMesh read_stl_binary(const std::string& path, std::string_view bytes,
+                                           std::vector<std::string>& notes);
+[[nodiscard]] TriangleMesh read_polygons(const std::string& path, std::string_view bytes,
+                                         MeshFormat format, std::vector<std::string>& notes);
+
+}  // namespace mortise::parts
