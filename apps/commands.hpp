@@ -50,6 +50,7 @@ void add_assemble(CLI::App& program);
 void add_benchmark(CLI::App& program);
 void add_collide(CLI::App& program);
 void add_decompose(CLI::App& program);
+void add_decompose(CLI::App& program);
 void add_dock(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);

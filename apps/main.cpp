@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   mortise::app::add_assemble(program);
   mortise::app::add_benchmark(program);
   mortise::app::add_collide(program);
+  mortise::app::add_decompose(program);
   mortise::app::add_dock(program);
   mortise::app::add_evaluate(program);
   mortise::app::add_export(program);

@@ -92,6 +92,25 @@ std::vector<std::size_t> cover_nodes(const NodeField& field, const std::vector<G
   return chosen;
 }
 
+std::vector<double> shares(const NodeField& field, const std::vector<GridBall>& balls) {
+  std::vector<std::int32_t> holders(field.depth.size(), 0);
+  for (const GridBall& ball : balls)
+    for_rows_in(field, ball, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t k = first; k <= last; ++k) ++holders[k];
+    });
+  std::vector<double> result;
+  for (const GridBall& ball : balls) {
+    double sum = 0.0;
+    std::int64_t nodes = 0;
+    for_rows_in(field, ball, [&](std::int64_t first, std::int64_t last) {
+      nodes += last - first + 1;
+      for (std::int64_t k = first; k <= last; ++k) sum += 1.0 / holders[k];
+    });
+    result.push_back(nodes == 0 ? 1.0 : sum / static_cast<double>(nodes));
+  }
+  return result;
+}
+
 double covered_part(const NodeField& field, const std::vector<GridBall>& balls) {
   NodeBits open(field);
   const std::int64_t inside = open.count();

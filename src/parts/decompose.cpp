@@ -114,6 +114,10 @@ Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& option
   for (Eigen::Index i = 0; i < result.knots.size(); ++i)
     result.knots.points.col(i) = in_solid_frame(field, knots[i]);
   result.knots.weights = Eigen::VectorXcd::Ones(result.knots.size());
+  if (options.weights == KnotWeights::kShare) {
+    const std::vector<double> shares = parts::shares(field, knots);
+    for (Eigen::Index i = 0; i < result.knots.size(); ++i) result.knots.weights[i] = shares[i];
+  }
   return result;
 }
 

@@ -13,6 +13,9 @@ namespace mortise::parts {
 std::vector<std::size_t> cover_nodes(const NodeField& field, const std::vector<GridBall>& balls,
                                      int threads);
 
+// For each ball the mean over its nodes of one over the number of balls that hold the node.
+std::vector<double> shares(const NodeField& field, const std::vector<GridBall>& balls);
+
 // Part of the nodes inside the solid that lie in the balls.
 double covered_part(const NodeField& field, const std::vector<GridBall>& balls);
 

@@ -132,6 +132,42 @@ SphereTree sphere_tree(const Eigen::Matrix4Xd& balls, const SphereTreeOptions& o
   return tree;
 }
 
+void check_sphere_tree(const SphereTree& tree, Eigen::Index leaves, const char* who) {
+  const Eigen::Index size = tree.size();
+  const auto require = [&](bool good, const std::string& message) {
+    if (!good) throw InputError(std::string(who) + ": " + message);
+  };
+  require(size >= 1 && tree.first_child.size() == size && tree.children.size() == size &&
+              tree.leaf.size() == size,
+          "as many balls, first children, child counts and leaves expected, at least one");
+  require(tree.balls.allFinite() && (tree.balls.row(3).array() >= 0.0).all(),
+          "finite balls with radii >= 0 expected");
+  std::vector<char> seen(static_cast<std::size_t>(leaves), 0);
+  Eigen::Index next = 1;  // children follow each other level by level, so in the order of parents
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::string where = "ball " + std::to_string(i) + ": ";
+    const int count = tree.children[i];
+    if (count == 0) {
+      const int leaf = tree.leaf[i];
+      require(leaf >= 0 && leaf < leaves && seen[leaf] == 0,
+              where + "a leaf not met before expected, found " + std::to_string(leaf));
+      seen[leaf] = 1;
+      continue;
+    }
+    require(count > 0 && tree.first_child[i] == next && count <= size - next,
+            where + "children from " + std::to_string(next) + " on expected, found " +
+                std::to_string(count) + " from " + std::to_string(tree.first_child[i]));
+    next += count;
+    for (Eigen::Index c = next - count; c < next; ++c)
+      require((tree.balls.col(c) - tree.balls.col(i)).head<3>().norm() + tree.balls(3, c) <=
+                  tree.balls(3, i) * (1.0 + 1e-12),
+              "ball " + std::to_string(c) + " sticks out of its parent");
+  }
+  require(next == size, "one root expected");
+  require(std::count(seen.begin(), seen.end(), 1) == leaves,
+          std::to_string(leaves) + " leaves expected");
+}
+
 Eigen::VectorXd distance_to_union(const SphereTree& tree, const Eigen::Matrix3Xd& points,
                                   int threads) {
   if (tree.size() == 0) throw InputError("distance_to_union: a tree with a ball expected");

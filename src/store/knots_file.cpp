@@ -2,6 +2,7 @@
 // The knots file, and telling Mortise's files apart.
 #include "mortise/store/knots_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +11,37 @@
 #include "store/records.hpp"
 
 namespace mortise {
+namespace {
+
+// /tree: balls (T x 4), and of each its first child, how many it has and which knot a leaf is.
+void write_tree(hdf5::Writer& out, const SphereTree& tree) {
+  const auto size = static_cast<hsize_t>(tree.size());
+  out.group("/tree");
+  out.array("/tree/balls", {size, 4}, tree.balls.data());
+  out.array("/tree/first_child", {size}, tree.first_child.data());
+  out.array("/tree/children", {size}, tree.children.data());
+  out.array("/tree/leaf", {size}, tree.leaf.data());
+}
+
+SphereTree read_tree(const hdf5::Reader& in) {
+  const hdf5::Shape shape = in.shape("/tree/balls");
+  const hsize_t size = shape.empty() ? 0 : shape[0];
+  const std::vector<double> balls = in.reals("/tree/balls", {size, 4});
+  SphereTree tree;
+  tree.balls.resize(4, static_cast<Eigen::Index>(size));
+  std::copy(balls.begin(), balls.end(), tree.balls.data());
+  const auto integers = [&](const char* name) {
+    const std::vector<std::int32_t> values = in.integers(name, {size});
+    return Eigen::VectorXi(
+        Eigen::Map<const Eigen::VectorXi>(values.data(), static_cast<Eigen::Index>(size)));
+  };
+  tree.first_child = integers("/tree/first_child");
+  tree.children = integers("/tree/children");
+  tree.leaf = integers("/tree/leaf");
+  return tree;
+}
+
+}  // namespace
 
 void write_knots_file(const std::string& path, const KnotsFile& file) {
   check_knots(file.knots, "write_knots_file");
@@ -23,6 +55,10 @@ void write_knots_file(const std::string& path, const KnotsFile& file) {
   out.attribute("/body", "path", file.source_path);
   out.attribute("/body", "sha256", file.source_sha256);
   hdf5::write_knots(out, "/body", file.knots);
+  if (file.tree) {
+    check_sphere_tree(*file.tree, file.knots.size(), "write_knots_file: tree");
+    write_tree(out, *file.tree);
+  }
   write_file_atomically(path, out.bytes());
 }
 
@@ -36,6 +72,12 @@ KnotsFile read_knots_file(const std::string& path) {
   file.knots = hdf5::read_knots(in, "/body");
   try {
     check_knots(file.knots, "/body/knots");
+    if (in.has("/tree")) {
+      file.tree = read_tree(in);
+      check_sphere_tree(*file.tree, file.knots.size(), "/tree");
+    }
+  } catch (const FileError&) {
+    throw;
   } catch (const InputError& e) {
     in.fail(e.what());
   }

@@ -25,17 +25,25 @@ enum class Reduction {
   kNone,         ///< all
 };
 
+/// What the knots weigh.
+enum class KnotWeights {
+  kUnit,   ///< 1 each
+  kShare,  ///< what a ball has of its nodes, each node shared equally by the balls that hold it:
+           ///< the weighted volumes add up to about that of the union
+};
+
 struct DecomposeOptions {
   DecomposeMethod method = DecomposeMethod::kSkeletal;
   Reduction reduction = Reduction::kCover;
   int grid = 64;             ///< nodes along the longest side of the solid's box; 2 to 1024
   double protrusion = 0.25;  ///< mu of [SD, Eq. A.1] in [0, 1]; only kSkeletal uses it
-  double expansion = 1.0;    ///< radii grow by this part of epsilon; in [0, 1]
-  int threads = 0;           ///< 0 = all cores; never changes the result
+  KnotWeights weights = KnotWeights::kUnit;
+  double expansion = 1.0;  ///< radii grow by this part of epsilon; in [0, 1]
+  int threads = 0;         ///< 0 = all cores; never changes the result
 };
 
 struct Decomposition {
-  Knots knots;              ///< A3: n3 balls in the solid's frame by decreasing radius, weight 1
+  Knots knots;              ///< A3: n3 balls in the solid's frame by decreasing radius
   Eigen::Matrix4Xd inner;   ///< A1: 4 x n1, balls inside the solid that hold every node inside it
   double spacing = 0.0;     ///< edge of the cubic grid cells
   double epsilon = 0.0;     ///< half a cell's diagonal: bound on the Hausdorff distance

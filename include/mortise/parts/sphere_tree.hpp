@@ -33,6 +33,10 @@ struct SphereTree {
 [[nodiscard]] SphereTree sphere_tree(const Eigen::Matrix4Xd& balls,
                                      const SphereTreeOptions& options = {});
 
+/// Throws InputError naming `who` unless the tree is one: a root, every other ball the child of one
+/// ball before it that holds it, the leaves 0 to `leaves` - 1 each once.
+void check_sphere_tree(const SphereTree& tree, Eigen::Index leaves, const char* who);
+
 /// min_k |p - x_k| - r_k over the leaves at each point p: outside the union of the balls the
 /// distance to it, inside minus the depth in the deepest ball.
 /// @param points  3 x N

@@ -3,10 +3,12 @@
 /// The knots file: one body's weighted balls and where they come from, as HDF5.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mortise/core/knots.hpp"
+#include "mortise/parts/sphere_tree.hpp"
 #include "mortise/store/provenance.hpp"
 
 namespace mortise {
@@ -19,11 +21,13 @@ struct KnotsFile {
   std::string source_path;    ///< the body's file, as given
   std::string source_sha256;  ///< 64 hex digits; may be empty
   Knots knots;
-  std::vector<Figure> figures;  ///< such as hausdorff
+  std::optional<SphereTree> tree;  ///< over the knots, in their order
+  std::vector<Figure> figures;     ///< such as hausdorff
 };
 
 /// Writes as write_file_atomically does; equal contents give equal bytes.
-/// @throws InputError as check_knots, FileError as write_file_atomically
+/// @throws InputError as check_knots or if the tree is not one over as many knots, FileError as
+/// write_file_atomically
 void write_knots_file(const std::string& path, const KnotsFile& file);
 
 /// @throws FileError as read_run

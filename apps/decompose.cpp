@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise decompose: a part as few balls, with the error this makes.
+#include "mortise/parts/decompose.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "commands.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/parts/ball_mesh.hpp"
+#include "mortise/parts/format_part.hpp"
+#include "mortise/parts/hausdorff.hpp"
+#include "mortise/parts/mesh_solid.hpp"
+#include "mortise/parts/read_part.hpp"
+#include "mortise/parts/sphere_tree.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "mortise/store/knots_file.hpp"
+
+namespace mortise::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::string part, output, ply;
+  std::string method = "skeletal", reduction = "cover", weights = "unit";
+  DecomposeOptions decompose;
+  int arity = SphereTreeOptions{}.arity;
+  bool allow_open = false;
+  bool measure = true;
+};
+
+const std::map<std::string, DecomposeMethod> kMethods = {
+    {"skeletal", DecomposeMethod::kSkeletal},
+    {"packing", DecomposeMethod::kInnerPacking},
+    {"octree", DecomposeMethod::kOctree}};
+const std::map<std::string, Reduction> kReductions = {{"cover", Reduction::kCover},
+                                                      {"containment", Reduction::kContainment},
+                                                      {"none", Reduction::kNone}};
+const std::map<std::string, KnotWeights> kWeights = {{"unit", KnotWeights::kUnit},
+                                                     {"share", KnotWeights::kShare}};
+
+template <typename Value>
+std::vector<std::string> names(const std::map<std::string, Value>& values) {
+  std::vector<std::string> result;
+  for (const auto& [name, value] : values) result.push_back(name);
+  return result;
+}
+
+Json resolved(const Options& options) {
+  return {{"method", options.method},
+          {"reduction", options.reduction},
+          {"grid", options.decompose.grid},
+          {"mu", options.decompose.protrusion},
+          {"expansion", options.decompose.expansion},
+          {"weights", options.weights},
+          {"arity", options.arity},
+          {"allow_open", options.allow_open},
+          {"measure", options.measure}};
+}
+
+void print(const Options& options, const Json& figures) {
+  const auto number = [&](const char* name) { return figures[name].get<double>(); };
+  const auto count = [&](const char* name) { return figures[name].get<long>(); };
+  std::printf("balls      %ld of %ld inner ones kept, in a tree of %ld\n", count("n3"), count("n1"),
+              count("tree_balls"));
+  std::printf("grid       %ld nodes, %ld inside, %.4f of these in the balls\n", count("nodes"),
+              count("inside"), number("coverage"));
+  std::printf("epsilon    %.6g   half a grid cell's diagonal\n", number("epsilon"));
+  if (options.measure) {
+    std::printf("hausdorff  %.6g   balls beyond part %.6g, part beyond balls %.6g\n",
+                number("hausdorff"), number("balls_beyond_part"), number("part_beyond_balls"));
+    std::printf("surfaces   %.6g   of balls to part %.6g, of part to balls %.6g\n",
+                number("hausdorff_surfaces"), number("ball_surface_to_part"),
+                number("part_surface_to_balls"));
+  }
+  std::printf("seconds    %.2f\n", number("seconds"));
+  std::printf("wrote      %s%s\n", options.output.c_str(),
+              options.ply.empty() ? "" : (", " + options.ply).c_str());
+}
+
+void run(Options options) {
+  using Clock = std::chrono::steady_clock;
+  options.decompose.method = kMethods.at(options.method);
+  options.decompose.reduction = kReductions.at(options.reduction);
+  options.decompose.weights = kWeights.at(options.weights);
+  options.decompose.threads = options.common.threads;
+  const ReadPartResult part =
+      read_part(options.part, {.repair = {.allow_open = options.allow_open}});
+  if (!options.common.quiet)
+    for (const std::string& decision : part.decisions)
+      std::fprintf(stderr, "mortise: %s: %s\n", options.part.c_str(), decision.c_str());
+
+  const Clock::time_point start = Clock::now();
+  const MeshSolid solid(part.mesh, {.threads = options.common.threads});
+  const Decomposition result = decompose(solid, options.decompose);
+  const SphereTree tree = sphere_tree(result.knots.points, {.arity = options.arity});
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (interrupted()) throw Interrupted("nothing was written");
+
+  Json figures = {{"n1", result.inner.cols()},   {"n3", result.knots.size()},
+                  {"epsilon", result.epsilon},   {"spacing", result.spacing},
+                  {"nodes", result.nodes},       {"inside", result.inside},
+                  {"coverage", result.coverage}, {"tree_balls", tree.size()}};
+  if (options.measure) {
+    const double spacing = 0.5 * result.epsilon;
+    const HausdorffDistance distance =
+        hausdorff_distance(result.knots.points, solid, surface_samples(part.mesh, spacing),
+                           {.spacing = spacing, .threads = options.common.threads});
+    figures["hausdorff"] = distance.of_solids();
+    figures["balls_beyond_part"] = distance.balls_beyond_solid;
+    figures["part_beyond_balls"] = distance.solid_beyond_balls;
+    figures["hausdorff_surfaces"] = distance.of_surfaces();
+    figures["ball_surface_to_part"] = distance.balls_to_surface;
+    figures["part_surface_to_balls"] = distance.surface_to_balls;
+  }
+  figures["seconds"] = seconds;
+
+  KnotsFile file;
+  file.provenance = make_provenance(command_line(), resolved(options).dump());
+  file.source_path = options.part;
+  file.source_sha256 = sha256_of_file(options.part);
+  file.knots = result.knots;
+  file.tree = tree;
+  for (const auto& [name, value] : figures.items())
+    if (name != "seconds") file.figures.push_back({name, value.get<double>()});
+  if (!options.ply.empty())
+    write_file_atomically(options.ply, format_ply(ball_mesh(result.knots.points)));
+  write_knots_file(options.output, file);
+  if (options.common.json)
+    std::printf("%s\n", figures.dump().c_str());
+  else if (!options.common.quiet)
+    print(options, figures);
+}
+
+}  // namespace
+
+void add_decompose(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *program.add_subcommand(
+      "decompose", "Turn a part into few balls and say how far they are from it");
+  command.add_option("part", options->part, "STL, OBJ, PLY, OFF or STEP file")->required();
+  command
+      .add_option("-o,--output", options->output, "Knots file (HDF5): balls, weights, sphere tree")
+      ->required();
+  DecomposeOptions& decompose = options->decompose;
+  command.add_option("--grid", decompose.grid, "Grid nodes along the part's longest side")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1024));
+  command
+      .add_option("--mu", decompose.protrusion,
+                  "How far a ball may stick out of a chosen one, in its radii, and be passed over; "
+                  "less makes more inner balls and in the end fewer")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_option("--method", options->method, "Order of the inner balls")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names(kMethods)));
+  command
+      .add_option("--reduction", options->reduction,
+                  "Which balls stay: cover = few that hold every grid node inside, containment = "
+                  "those in no other, none = all")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names(kReductions)));
+  command.add_option("--expansion", decompose.expansion, "Radii grow by this part of epsilon")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--weights", options->weights,
+                  "unit = 1, share = overlaps divided among the balls")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names(kWeights)));
+  command.add_option("--arity", options->arity, "Most children of a ball of the sphere tree")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 64));
+  command.add_option("--ply", options->ply, "PLY file of the balls, to look at");
+  command.add_flag("--allow-open", options->allow_open,
+                   "Take a surface with holes; inside is where it winds around a point");
+  command.add_flag("!--no-hausdorff", options->measure,
+                   "Do not measure the distance between balls and part");
+  add_common_options(command, options->common,
+                     "  mortise decompose part.stl -o part.h5\n"
+                     "  mortise decompose part.step -o part.h5 --grid 128 --ply balls.ply\n"
+                     "  mortise decompose part.stl -o part.h5 --grid 64 --mu 0.5 --reduction "
+                     "containment --json");
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace mortise::app
