@@ -18,7 +18,8 @@ struct Mesh {
   std::vector<int> triangles;    ///< 3 per triangle
 
   [[nodiscard]] mortise_mesh view() const {
-    return {vertices.data(), vertices.size() / 3, triangles.data(), triangles.size() / 3};
+    return {vertices.data(), static_cast<long>(vertices.size() / 3), triangles.data(),
+            static_cast<long>(triangles.size() / 3)};
   }
 };
 

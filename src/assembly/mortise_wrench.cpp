@@ -38,7 +38,8 @@ int guarded(const Body& body) {
 }
 
 mortise::MeshSolid solid(const mortise_mesh* mesh, const char* name, int threads) {
-  if (mesh == nullptr || mesh->vertices == nullptr || mesh->triangles == nullptr)
+  if (mesh == nullptr || mesh->vertices == nullptr || mesh->triangles == nullptr ||
+      mesh->vertex_count < 0 || mesh->triangle_count < 0)
     throw mortise::InputError(std::string("mortise_session_create: no ") + name + " mesh");
   mortise::TriangleMesh copy;
   copy.vertices = Eigen::Map<const Eigen::Matrix3Xd>(mesh->vertices, 3,

@@ -66,6 +66,7 @@ void GapFunction::State::order_modes(int half, const Eigen::MatrixXcd& spectrum,
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return energy[a] > energy[b]; });
     std::vector<Eigen::Vector3i> sorted;
+    sorted.reserve(order.size());
     for (const std::size_t i : order) sorted.push_back(candidates[i]);
     candidates = std::move(sorted);
   }

@@ -10,18 +10,18 @@
 #ifndef MORTISE_ASSEMBLY_MORTISE_WRENCH_H
 #define MORTISE_ASSEMBLY_MORTISE_WRENCH_H
 
-#include <stddef.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(modernize-use-using,readability-identifier-naming): this is C. */
+
 /** A closed triangle mesh, corners counter-clockwise seen from outside. */
 typedef struct mortise_mesh {
   const double* vertices; /**< 3 per vertex, the part's own frame */
-  size_t vertex_count;
+  long vertex_count;
   const int* triangles; /**< 3 indices per triangle */
-  size_t triangle_count;
+  long triangle_count;
 } mortise_mesh;
 
 /** Zeros mean the defaults in brackets. */
@@ -64,6 +64,8 @@ void mortise_session_free(mortise_session* session);
 
 /** Why the last call of this thread failed; "" if none did. Valid until the thread's next call. */
 const char* mortise_last_error(void);
+
+/* NOLINTEND(modernize-use-using,readability-identifier-naming) */
 
 #ifdef __cplusplus
 }
