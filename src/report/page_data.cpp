@@ -17,6 +17,7 @@
 #include "mortise/core/version.hpp"
 #include "mortise/molecules/write_molecule.hpp"
 #include "report/heavy_atoms.hpp"
+#include "report/part_view.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -156,6 +157,14 @@ std::string page_data(const Run& run, const ReportBodies& bodies, const Eigen::V
   Json head = head_json(run, bodies, frequency_poses);
   head["bodies"] = {body_json(run.fixed, bodies.fixed, "fixed"),
                     body_json(run.moving, bodies.moving, "moving")};
+  if (bodies.fixed.is_mesh()) {  // seen as the best pose asks for
+    const RigidMotion best = poses.empty() ? RigidMotion{} : poses.front().moving_in_fixed;
+    const Eigen::Vector3d away =
+        best * Eigen::Vector3d(report_points(bodies.moving).rowwise().mean()) -
+        report_points(bodies.fixed).rowwise().mean();
+    const Eigen::Quaterniond view(part_view(bodies.fixed.mesh, away));
+    head["view"] = {view.x(), view.y(), view.z(), view.w()};
+  }
   std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();  // the closing brace
   // Long lists of numbers are written by hand: quicker, and with no more digits than they need.

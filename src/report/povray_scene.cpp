@@ -13,14 +13,16 @@
 #include "mortise/report/pictures.hpp"
 #include "report/density_surface.hpp"
 #include "report/heavy_atoms.hpp"
+#include "report/part_view.hpp"
 #include "report/ribbon.hpp"
 #include "report/shading.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double kMargin = 1.06;              // of the picture around what it shows
-constexpr double kSurfaceSpacing = 0.5;       // angstrom
+constexpr double kMargin = 1.06;         // of the picture around what it shows
+constexpr double kSurfaceSpacing = 0.5;  // angstrom
+constexpr double kSeeThrough = 0.68;
 constexpr double kSmooth = std::numbers::pi;  // a crease no edge has
 
 // Linear light of the page's two body colours.
@@ -99,16 +101,8 @@ std::string material(const std::string& colour, double transmit) {
          (transmit > 0.0 ? " no_shadow" : "") + "}\n";
 }
 
-// Rows: to the right, upward, toward the viewer.
-Eigen::Matrix3d view_of_parts() {
-  const double turn = -35.0 * std::numbers::pi / 180.0;
-  const double tilt = -60.0 * std::numbers::pi / 180.0;
-  return (Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()) *
-          Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()))
-      .toRotationMatrix();
-}
-
-// The line between the bodies runs to the right; what is left of the molecules' extent upward.
+// Rows: to the right, upward, toward the viewer. The line between the bodies runs to the right;
+// what is left of the molecules' extent upward.
 Eigen::Matrix3d view_of_molecules(const Eigen::Matrix3Xd& fixed, const Eigen::Matrix3Xd& moving) {
   Eigen::Vector3d right = moving.rowwise().mean() - fixed.rowwise().mean();
   right = right.norm() > 1e-6 ? Eigen::Vector3d(right.normalized()) : Eigen::Vector3d::UnitX();
@@ -182,15 +176,20 @@ std::string povray_scene(const ReportBodies& bodies, const RigidMotion& pose,
   if (bodies.fixed.is_mesh()) {
     const Eigen::Matrix3Xd fixed = report_points(bodies.fixed);
     const Eigen::Matrix3Xd moving = pose * report_points(bodies.moving);
-    view = view_of_parts();
+    view = detail::part_view(bodies.fixed.mesh, moving.rowwise().mean() - fixed.rowwise().mean());
     show(fixed);
     show(moving);
-    constexpr double kLine = 0.0016;  // of the assembly's diagonal
+    // Where parts fit exactly both surfaces are one, and the ray tracer would pick either.
+    constexpr double kShrink = 0.998;
+    TriangleMesh inner = bodies.moving.mesh;
+    const Eigen::Vector3d middle = report_points(bodies.moving).rowwise().mean();
+    inner.vertices = (kShrink * (inner.vertices.colwise() - middle)).colwise() + middle;
+    constexpr double kLine = 0.0011;  // of the assembly's diagonal
     const double line = kLine * (shown.rowwise().maxCoeff() - shown.rowwise().minCoeff()).norm();
-    objects = mesh_text(bodies.fixed.mesh, {}, detail::kCrease) + material(kFixedColour, 0.45) +
-              edges_text(bodies.fixed.mesh, {}, line) +
-              mesh_text(bodies.moving.mesh, pose, detail::kCrease) + material(kMovingColour, 0.0) +
-              edges_text(bodies.moving.mesh, pose, line);
+    objects = mesh_text(bodies.fixed.mesh, {}, detail::kCrease) +
+              material(kFixedColour, kSeeThrough) + edges_text(bodies.fixed.mesh, {}, line) +
+              mesh_text(inner, pose, detail::kCrease) + material(kMovingColour, 0.0) +
+              edges_text(inner, pose, line);
   } else {
     const Molecule fixed = detail::heavy_atoms(bodies.fixed.molecule);
     const Molecule moving = detail::heavy_atoms(bodies.moving.molecule);

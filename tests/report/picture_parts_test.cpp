@@ -9,6 +9,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "report/density_surface.hpp"
+#include "report/part_view.hpp"
 #include "report/ribbon.hpp"
 #include "report/shading.hpp"
 #include "sample_report.hpp"
@@ -115,6 +116,34 @@ TEST(Ribbon, BreaksWhereResiduesAreMissingAndNeedsFour) {
   EXPECT_EQ(detail::ribbon(three).size(), 0);
   for (Atom& atom : molecule.atoms) atom.hetero = true;
   EXPECT_EQ(detail::ribbon(molecule).size(), 0);
+}
+
+TEST(PartView, IsARotationWithTheMovingPartUpward) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 20; ++i) {
+    TriangleMesh box;
+    Eigen::Matrix2Xd outline(2, 4);
+    outline << 0, 5, 5, 0, 0, 0, 4, 4;
+    add_prism(box, outline, 0.0, 3.0);
+    const Eigen::Quaterniond turn = random_rotation(random);
+    box.vertices = turn.toRotationMatrix() * box.vertices;
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1)}) {
+      const Eigen::Matrix3d view =
+          detail::part_view(box, turn * (axis + Eigen::Vector3d(0.1, 0.2, -0.1)));
+      EXPECT_TRUE((view * view.transpose()).isIdentity(1e-12));
+      EXPECT_NEAR(view.determinant(), 1.0, 1e-12);
+      // Seen from 30 degrees above: upward in the picture, and toward the viewer.
+      const Eigen::Vector3d seen = view * (turn * axis);
+      EXPECT_LT((seen - Eigen::Vector3d(0.0, std::sqrt(0.75), 0.5)).norm(), 1e-9);
+    }
+  }
+  const Eigen::Vector3d z =
+      detail::part_view(
+          detail::density_surface(Eigen::Vector3d::Zero(), Eigen::VectorXd::Constant(1, 2.0), 0.2),
+          Eigen::Vector3d::UnitX()) *
+      Eigen::Vector3d::UnitZ();
+  EXPECT_GT(z.y(), 0.8) << "a ball has no flat faces: z is upward";
 }
 
 TEST(Shading, OfAPrismBreaksAtItsEdges) {

@@ -70,7 +70,7 @@ TEST(PovrayScene, HoldsBothBodiesAndACamera) {
   EXPECT_THAT(scene, Not(HasSubstr("nan")));
   const std::string parts = povray_scene(plate_and_pin(), {});
   EXPECT_THAT(parts, HasSubstr("cylinder"));  // edges
-  EXPECT_THAT(parts, HasSubstr("transmit 0.45"));
+  EXPECT_THAT(parts, HasSubstr("transmit 0.68"));
 }
 
 TEST(PovrayScene, RefusesEmptyBodiesAndSizes) {

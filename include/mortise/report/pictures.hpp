@@ -21,7 +21,7 @@ struct PictureOptions {
 /// moving one as a ribbon, parts as meshes with their sharp edges, the fixed one see-through.
 ///
 /// Seen in parallel projection, molecules at right angles to the line between the bodies, parts
-/// from above with z upward; everything is in the picture.
+/// obliquely from above along the fixed one's flat faces; everything is in the picture.
 /// @param pose  carries the moving body to its place
 /// @throws InputError if a body is empty or an option out of range
 [[nodiscard]] std::string povray_scene(const ReportBodies& bodies, const RigidMotion& pose,

@@ -7,9 +7,6 @@ import { showMesh } from './mesh.js';
 
 export const INTERFACE_CUTOFF = 5;  // angstrom between heavy atoms
 
-/** Turns by \u221235 degrees about z, then by \u221262 about x. */
-const OBLIQUE = [-0.4912, -0.1549, -0.2578, 0.8175];
-
 const isPolymer = (atom) => !atom.hetflag;
 const residueKey = (atom) => `${atom.chain}\u0000${atom.resi}\u0000${atom.icode ?? ''}\u0000${atom.resn}`;
 
@@ -186,8 +183,8 @@ export async function makeViewer(run) {
     for (const listener of listeners) listener();
   }
 
-  // Molecules: at right angles to the line between the bodies, so that neither hides the other. Parts: from above,
-  // z upward, as drawings show them.
+  // Molecules: at right angles to the line between the bodies, so that neither hides the other. Parts: obliquely
+  // from above, as drawings show them.
   function home() {
     const at = current < 0 ? movingBody.center : [...moved(motion(run, current), movingBody.center)];
     const d = [0, 1, 2].map((k) => at[k] - fixedBody.center[k]);
@@ -200,7 +197,7 @@ export async function makeViewer(run) {
     const w = 1 + dot;
     const norm = Math.hypot(w, ...axis);
     const beside = norm < 1e-6 ? [0, 0, 1, 0] : [axis[0] / norm, axis[1] / norm, axis[2] / norm, w / norm];
-    const q = isMesh ? OBLIQUE : beside;
+    const q = isMesh ? run.view : beside;
     const view = viewer.getView();
     viewer.setView([view[0], view[1], view[2], view[3], ...q]);
     if (isMesh) meshes.zoom();
