@@ -107,10 +107,10 @@ TEST(ShapeComplementarity, EqualsItsDefinition) {
 TEST(ShapeComplementarity, FlatPlatesFitByTheirGap) {
   // Balls so close that the surfaces are planes but for ripples of r - sqrt(r^2 - step^2 / 2) =
   // 0.05: S = exp(-gap^2 / 2).
-  const Eigen::VectorXd r = Eigen::VectorXd::Constant(29 * 29, 1.8);
-  for (const double gap : {0.0, 0.5, 1.0, 1.5}) {
+  const Eigen::VectorXd r = Eigen::VectorXd::Constant(23 * 23, 1.8);
+  for (const double gap : {0.0, 0.8, 1.5}) {
     const Complementarity c =
-        shape_complementarity(plate(29, 0.6, 0.0), r, plate(29, 0.6, 3.6 + gap), r, {.threads = 0});
+        shape_complementarity(plate(23, 0.7, 0.0), r, plate(23, 0.7, 3.6 + gap), r, {.threads = 0});
     EXPECT_NEAR(c.sc, std::exp(-0.5 * gap * gap), 0.04) << gap;
     EXPECT_NEAR(c.gap, gap, 0.2) << gap;
     EXPECT_GT(c.area, 100.0);

@@ -86,7 +86,7 @@ TEST(ClusterPosesByInterface, EqualsTheGreedyWalkOverPoints) {
     const Eigen::Matrix3Xd fixed = blob(random, points, {20, 14, 12});
     const Eigen::Matrix3Xd moving = blob(random, points, {9, 12, 15});
     for (const double radius : {0.3, 2.0, 6.0}) {
-      const std::vector<RigidMotion> poses = touching_poses(random, 120, 24.0);
+      const std::vector<RigidMotion> poses = touching_poses(random, 70, 24.0);
       const InterfaceClusterOptions options{.radius = radius};
       const Clusters fast = cluster_poses_by_interface(poses, fixed, moving, options);
       const Clusters slow = brute_force(poses, fixed, moving, options);
