@@ -2,6 +2,7 @@
 // Fork, pipe, wait.
 #include "parts/step/guarded.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,6 +36,12 @@ void write_all(int fd, const std::string& bytes) {
   ::setrlimit(RLIMIT_CPU, &time);
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGINT, SIGTERM})
     std::signal(signal, SIG_DFL);
+  // What the parent has not written yet is copied in here, and OpenCASCADE flushes std::cout.
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  if (nowhere >= 0) {
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+  }
   try {
     write_all(fd, kDone + work());
   } catch (const std::exception& error) {
