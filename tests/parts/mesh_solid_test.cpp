@@ -110,7 +110,7 @@ TEST(MeshSolid, NearestPointLiesOnItsTriangleAtTheDistance) {
 
 TEST(MeshSolid, WindingNumberIsTheWholeSum) {
   for (const Case& c : cases()) {
-    const Eigen::Matrix3Xd points = probes(c.mesh, 400, 3);
+    const Eigen::Matrix3Xd points = probes(c.mesh, 200, 3);
     const Eigen::VectorXd on = reference::distance(c.mesh, points);
     const double scale = size(c.mesh) + points.cwiseAbs().maxCoeff();
     for (const double reach : {1.5, 2.0, 4.0, kEverywhere}) {
@@ -130,7 +130,7 @@ TEST(MeshSolid, WindingNumberIsTheWholeSum) {
 TEST(MeshSolid, SignIsThatOfTheWholeSum) {
   for (const Case& c : cases()) {
     const MeshSolid solid(c.mesh);
-    const Eigen::Matrix3Xd points = probes(c.mesh, 1000, 4);
+    const Eigen::Matrix3Xd points = probes(c.mesh, 400, 4);
     const Eigen::VectorXd found = solid.signed_distance(points, kEverywhere);
     const double scale = size(c.mesh) + points.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < points.cols(); ++i) {

@@ -60,7 +60,7 @@ TEST(SkeletalDensity, IsTheFullSumToTheTolerance) {
                                    {"open", shapes::without_last(shapes::icosphere(1.0, 10), 400)}};
   for (const Case& c : cases) {
     const MeshSolid solid(c.mesh);
-    const Eigen::Matrix3Xd points = probes(c.mesh, 24);
+    const Eigen::Matrix3Xd points = probes(c.mesh, 16);
     const Eigen::VectorXd xi =
         solid.signed_distance(points, std::numeric_limits<double>::infinity());
     for (const double sigma : {0.05, 0.5, 2.0}) {
