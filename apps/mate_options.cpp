@@ -17,6 +17,9 @@ using Field = OptionField<MateOptions, Value>;
 const Field<double> kReals[] = {
     {"spacing", "--spacing", "Grid step of the search",
      [](MateOptions& o) -> double& { return o.spacing; }},
+    {"most_cells", "--most-cells",
+     "About the most grid cells searched; beyond it spacing and skin grow; not a length",
+     [](MateOptions& o) -> double& { return o.most_cells; }},
     {"separation", "--separation", "Least distance between translations kept at one rotation",
      [](MateOptions& o) -> double& { return o.separation; }},
     {"skin", "--skin", "Thickness of the double skin",

@@ -30,6 +30,7 @@ void check_options(const MateOptions& o) {
     refuse("aligned and turns must be >= 0, got " + std::to_string(o.aligned) + " and " +
            std::to_string(o.turns));
   positive("spacing", o.spacing);
+  positive("most cells", o.most_cells);
   positive("skin", o.skin);
   positive("detail", o.detail);
   positive("tolerance", o.tolerance);
@@ -184,24 +185,30 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   };
   fixed_samples = sample_surface(fixed.mesh, count(fixed_samples.area));
   moving_samples = sample_surface(moving.mesh, count(moving_samples.area));
-  const double margin =
-      std::max((options.skin + 2.0 * options.spacing) * unit, 16.0 * options.tolerance * unit);
+  // A fixed part much larger than the moving one needs a box that a grid as fine would make slow.
+  const double reach = diameter_of(moving.mesh.vertices) + 2.0 * options.skin * unit;
+  const double box = (fixed.solid->bounds().sizes().array() + reach).prod();
+  const double coarser =
+      std::max(1.0, std::cbrt(box / options.most_cells) / (options.spacing * unit));
+  const double step = coarser * options.spacing * unit;
+  const double offset = coarser * options.skin * unit;
+  const double margin = std::max(offset + 2.0 * step, 16.0 * options.tolerance * unit);
   const auto body = [&](const MatePart& part, const SurfaceSamples& samples) {
     // As fine as asked, but for a part so much the larger that its grid would not fit.
     constexpr double kMostNodes = 1.2e7;
-    const Eigen::AlignedBox3d box = part.solid->bounds();
-    const double volume = (box.sizes().array() + 2.0 * margin).prod();
-    const double step = std::max(options.detail * unit, std::cbrt(volume / kMostNodes));
-    return ContactBody(samples, DistanceField(*part.solid, step, margin, options.threads),
-                       box.center());
+    const Eigen::AlignedBox3d bounds = part.solid->bounds();
+    const double volume = (bounds.sizes().array() + 2.0 * margin).prod();
+    const double detail = std::max(options.detail * unit, std::cbrt(volume / kMostNodes));
+    return ContactBody(samples, DistanceField(*part.solid, detail, margin, options.threads),
+                       bounds.center());
   };
   impl_->pair =
       std::make_unique<ContactPair>(body(fixed, fixed_samples), body(moving, moving_samples));
-  const SampledSkinOptions skin{.spacing = options.spacing * unit,
-                                .offset = options.skin * unit,
+  const SampledSkinOptions skin{.spacing = step,
+                                .offset = offset,
                                 .penalty = options.penalty,
                                 .feature = options.feature,
-                                .feature_radius = 2.0 * options.skin * unit};
+                                .feature_radius = 2.0 * offset};
   impl_->fixed_knots = skin_knots(impl_->pair->fixed().field, skin);
   impl_->moving_knots = skin_knots(impl_->pair->moving().field, skin);
   SearchOptions search;

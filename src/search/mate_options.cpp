@@ -32,6 +32,7 @@ std::string to_json(const MateOptions& o) {
       {"turns", o.turns},
       {"axis", nullptr},
       {"spacing", o.spacing},
+      {"most_cells", o.most_cells},
       {"per_rotation", o.per_rotation},
       {"separation", o.separation},
       {"skin", o.skin},

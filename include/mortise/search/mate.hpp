@@ -32,14 +32,15 @@ struct MateAxis {
 
 /// All lengths are fractions of the smaller part's diameter: scaling both parts changes nothing.
 struct MateOptions {
-  int rotations = 600;   ///< size of the rotation set, or turns about the axis; >= 1
-  int aligned = 600;     ///< most rotations added that lay flat faces of the parts against each
-                         ///< other, two at once; >= 0
-  int turns = 60;        ///< turns added about each axis of turned faces that is laid along one of
-                         ///< the other part; >= 0
+  int rotations = 600;  ///< size of the rotation set, or turns about the axis; >= 1
+  int aligned = 600;    ///< most rotations added that lay flat faces of the parts against each
+                        ///< other, two at once; >= 0
+  int turns = 60;       ///< turns added about each axis of turned faces that is laid along one of
+                        ///< the other part; >= 0
   std::optional<MateAxis> axis = {};  ///< turn about this only; none = all of SO(3)
   double spacing = 0.02;              ///< of the search's grid; > 0
-  int per_rotation = 12;               ///< best translations kept at each rotation; >= 1
+  double most_cells = 6e5;   ///< of the search's box, about: beyond it spacing and skin grow; > 0
+  int per_rotation = 12;     ///< best translations kept at each rotation; >= 1
   double separation = 0.03;  ///< least distance between translations kept at one rotation; >= 0
   double skin = 0.03;        ///< r0, thickness of the double skin; > 0
   double penalty = 3.0;      ///< lambda, what the core weighs against the skin; > 1
@@ -52,7 +53,7 @@ struct MateOptions {
   double overlap = 1.0;  ///< what an area of penetration one tolerance deep costs against an area
                          ///< of contact; >= 0
   int samples = 3000;    ///< points on the smaller surface; >= 100
-  int polished = 60;    ///< placements polished to the end; >= 1
+  int polished = 60;     ///< placements polished to the end; >= 1
   int poses = 100;       ///< reported; >= 1
   double cluster_radius = 0.02;  ///< placements whose RMSD to a better one is below are dropped
   int threads = 0;               ///< 0 = all cores; never changes the result
