@@ -29,6 +29,8 @@ struct Options {
   std::string fixed, moving, path, goal, output, plot, write_path;
   double rate = 1000.0;
   PartFieldOptions field;
+  std::string field_kind = "double-skin";
+  double sigma = SkeletalFieldOptions().sigma;
   AssemblyOptions assembly;
   HandPathOptions hand;
   int free_starts = 0;
@@ -62,11 +64,21 @@ Session make_session(const Options& options) {
   const ReadPartResult fixed = read_part(options.fixed), moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
   const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
-  PartFieldOptions field = options.field;
-  if (field.thickness == 0.0)
-    field.thickness = std::min(default_thickness(first), default_thickness(second));
-  AssemblySession session(double_skin_field(first, field), double_skin_field(second, field),
-                          options.assembly);
+  const double thickness = options.field.thickness > 0.0
+                               ? options.field.thickness
+                               : std::min(default_thickness(first), default_thickness(second));
+  const auto density = [&](const MeshSolid& part) {
+    if (options.field_kind == "skeletal")
+      return skeletal_field(part, {.grid = options.field.grid,
+                                   .margin = thickness,
+                                   .sigma = options.sigma,
+                                   .penalty = options.field.penalty,
+                                   .threads = options.common.threads});
+    PartFieldOptions field = options.field;
+    field.thickness = thickness;
+    return double_skin_field(part, field);
+  };
+  AssemblySession session(density(first), density(second), options.assembly);
   return {std::move(session),
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
           static_cast<long>(fixed.mesh.size()), static_cast<long>(moving.mesh.size())};
@@ -292,6 +304,16 @@ void add_assemble(CLI::App& program) {
   command->add_option("--grid", options->field.grid, "Nodes along a part's longest side")
       ->capture_default_str()
       ->check(CLI::Range(8, 1024));
+  command
+      ->add_option(
+          "--field", options->field_kind,
+          "What parts are made of: double-skin, or skeletal (densities of their skeletons)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"double-skin", "skeletal"}));
+  command
+      ->add_option("--sigma", options->sigma,
+                   "Thickness factor of the skeletons: smaller is sharper")
+      ->capture_default_str();
   command
       ->add_option(
           "--thickness", options->field.thickness,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mortise/collision/body_density.hpp"
+#include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/solid.hpp"
 
 namespace mortise {
@@ -24,5 +25,19 @@ struct PartFieldOptions {
 /// @throws InputError if an option is out of range
 [[nodiscard]] BodyDensity double_skin_field(const Solid& solid,
                                             const PartFieldOptions& options = {});
+
+struct SkeletalFieldOptions {
+  int grid = 128;        ///< nodes along the longest side of the part's box and its margin; >= 8
+  double margin = 0.0;   ///< of space around the part, length unit; 0 = default_thickness(solid)
+  double sigma = 0.5;    ///< see SkeletalDensityOptions::thickness: smaller is sharper
+  double penalty = 3.0;  ///< p, lambda_2 / lambda_1 [HA, Sec. 2.3]; > 0
+  int threads = 0;       ///< 0 = all cores; never changes the result
+};
+
+/// The skeletal density on a grid [HA, Eq. 2-3], brought to zero by a raised cosine over the outer
+/// half of the margin, for it falls off slowly outside. A complex density: two real sums.
+/// @throws InputError if an option is out of range
+[[nodiscard]] BodyDensity skeletal_field(const MeshSolid& solid,
+                                         const SkeletalFieldOptions& options = {});
 
 }  // namespace mortise
