@@ -105,8 +105,8 @@ TEST(ShapeKernel, WithoutALowPassIsTheOverlapOfTheDoubleSkins) {
 }
 
 // The low-pass ends at half the grid's Nyquist frequency, so that spreading errs by 5e-5
-// (score_grid_test). The rest, 3%, is the kernel's cut tail: with 2.5 / cutoff more range instead of
-// 1.15 it is 1.2%. A wrong sign, frame or factor would be 100%.
+// (score_grid_test). The rest, 3%, is the kernel's cut tail: with 2.5 / cutoff more range instead
+// of 1.15 it is 1.2%. A wrong sign, frame or factor would be 100%.
 TEST(ShapeKernel, PairSumIsTheSearchsScore) {
   const Case c(1);
   std::mt19937 random(2);
