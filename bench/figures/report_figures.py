@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 
 TREE = pathlib.Path(__file__).resolve().parents[2]
 MOLECULES = (TREE / "molecules/1hpv_receptor.pdb", TREE / "molecules/1hpv_ligand.pdb")
-PARTS = (TREE / "parts/round_peg_hole_exact.stl", TREE / "parts/round_peg_pin.stl")
+PARTS = (TREE / "parts/mortise_post_exact.stl", TREE / "parts/tenon_rail.stl")
 
 
 def run(*words):
