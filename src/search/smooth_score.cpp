@@ -40,7 +40,7 @@ PlacedPoints::PlacedPoints(const TypedPoints& typed, const Eigen::Matrix3Xd& sha
   std::vector<int> kinds;
   std::vector<double> shares;
   const auto add = [&](const Eigen::Vector3d& place, int type, double weight) {
-    places.push_back(place - centre);
+    places.emplace_back(place - centre);
     kinds.push_back(type);
     shares.push_back(weight);
   };
