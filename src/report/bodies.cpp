@@ -57,7 +57,7 @@ std::string find_body(const BodyRecord& body, const Provenance& provenance, cons
     return locate_input(body, provenance, name, place);
   } catch (const FileError&) {
     if (!place.path.empty() || body.sha256.empty()) throw;
-    const std::string found = search_directories(body, directories);
+    std::string found = search_directories(body, directories);
     if (found.empty()) throw;
     notices.push_back("The " + name + " input has moved since the run: " + body.path +
                       " was found by its SHA-256 at " + found + ".");

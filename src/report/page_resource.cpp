@@ -20,15 +20,15 @@ __asm__(
 // clang-format on
 
 extern "C" {
-__attribute__((visibility("hidden"))) extern const char mortise_report_page[];
-__attribute__((visibility("hidden"))) extern const char mortise_report_page_end[];
+__attribute__((visibility("hidden"))) extern const char kPage[] __asm__("mortise_report_page");
+__attribute__((visibility("hidden"))) extern const char kPageEnd[] __asm__(
+    "mortise_report_page_end");
 }
 
 namespace mortise::detail {
 
 std::string_view page_template() noexcept {
-  return {mortise_report_page,
-          static_cast<std::size_t>(mortise_report_page_end - mortise_report_page)};
+  return {kPage, static_cast<std::size_t>(kPageEnd - kPage)};
 }
 
 }  // namespace mortise::detail

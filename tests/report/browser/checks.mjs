@@ -45,7 +45,7 @@ async function showsSomething(page) {
 
 /** WCAG contrast of two colours of the theme. */
 const contrasts = (page) => page.evaluate(() => {
-  const context = new OffscreenCanvas(1, 1).getContext('2d');
+  const context = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
   const luminance = (name) => {
     context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
     context.fillRect(0, 0, 1, 1);
