@@ -196,7 +196,7 @@ TEST(SampleParts, FitWithoutPenetrationAtEveryRecordedPose) {
       const RigidMotion pose =
           i == 0 ? pose_of(pair) : compose(any_member(pair["symmetries"], i), pose_of(pair));
       const Fit fit = fit_of(fixed, moving, pose, touch);
-      EXPECT_LT(fit.depth, 0.12) << name << " member " << i;
+      EXPECT_LT(fit.depth, name.starts_with("thread") ? 0.12 : 0.04) << name << " member " << i;
       // A gear touches along one line per tooth pair; everything else over a good part of it.
       EXPECT_GT(fit.contact, name.starts_with("spur") ? 0.007 : 0.08) << name << " member " << i;
     }
