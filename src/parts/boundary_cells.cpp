@@ -22,6 +22,16 @@ Eigen::Vector3d gradient(const NodeField& field, const Eigen::Array3i& node) {
   return result;
 }
 
+// Whether the node or one of the 26 about it lies inside.
+bool inside_is_near(const NodeField& field, const Eigen::Array3i& node) {
+  const Eigen::Array3i low = (node - 1).max(0), high = (node + 1).min(field.size - 1);
+  for (int x = low.x(); x <= high.x(); ++x)
+    for (int y = low.y(); y <= high.y(); ++y)
+      for (int z = low.z(); z <= high.z(); ++z)
+        if (field.depth[field.index(x, y, z)] > 0.0F) return true;
+  return false;
+}
+
 }  // namespace
 
 BoundaryPoints::BoundaryPoints(const NodeField& field)
@@ -30,8 +40,9 @@ BoundaryPoints::BoundaryPoints(const NodeField& field)
     if (std::abs(field.depth[i]) >= kHalfDiagonal) continue;
     const Eigen::Array3i node = field.node_at(i);
     place_[i] = static_cast<std::int32_t>(points_.size());
-    points_.push_back(
-        {i, node.cast<double>().matrix() - field.depth[i] * gradient(field, node).normalized()});
+    const Eigen::Vector3d inward = gradient(field, node).normalized();
+    points_.push_back({i, node.cast<double>().matrix() - field.depth[i] * inward,
+                       inside_is_near(field, node) ? kReach : kThinReach});
   }
 }
 

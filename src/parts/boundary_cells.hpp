@@ -28,25 +28,29 @@ class BoundaryPoints {
     for_rows_in(field_, {ball.center, ball.radius + kReach + kHalfDiagonal},
                 [&](std::int64_t first, std::int64_t last) {
                   for (std::int64_t k = first; k <= last; ++k)
-                    if (place_[k] >= 0 && reaches(ball, points_[place_[k]].position))
+                    if (place_[k] >= 0 && reaches(ball, points_[place_[k]]))
                       found(static_cast<std::size_t>(place_[k]));
                 });
   }
 
  private:
-  // How near the union of the balls must come to each point, spacings: what lies between the points
-  // is then within half a diagonal too (measured, docs/decisions.md).
+  // How near the union of the balls must come to a point, spacings. Where a node inside is near,
+  // what lies between the points is then within half a diagonal too (measured, docs/decisions.md).
+  // Where there is none, at sheets thinner than a cell, the points alone stand for the solid: they
+  // are sqrt(1/2) from what lies between them.
   static constexpr double kReach = 0.5 * kHalfDiagonal;
-
-  static bool reaches(const GridBall& ball, const Eigen::Vector3d& point) {
-    const double reach = ball.radius + kReach;
-    return (point - ball.center).squaredNorm() <= reach * reach;
-  }
+  static constexpr double kThinReach = kHalfDiagonal - 0.5 * std::numbers::sqrt2;
 
   struct Point {
     std::int64_t node;
     Eigen::Vector3d position;  // in nodes
+    double reach;
   };
+
+  static bool reaches(const GridBall& ball, const Point& point) {
+    const double reach = ball.radius + point.reach;
+    return (point.position - ball.center).squaredNorm() <= reach * reach;
+  }
 
   const NodeField& field_;
   std::vector<Point> points_;

@@ -117,17 +117,23 @@ SphereTree sphere_tree(const Eigen::Matrix4Xd& balls, const SphereTreeOptions& o
   tree.first_child.resize(size);
   tree.children.resize(size);
   tree.leaf.setConstant(size, -1);
+  // Level by level, the children in the order of their parents.
+  std::vector<int> order = {0};
   Eigen::Index at = 0;
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-    const Eigen::Index count = level->balls.cols();
-    tree.balls.middleCols(at, count) = level->balls;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const bool leaf = level->count[i] == 0;
-      tree.children[at + i] = level->count[i];
-      tree.first_child[at + i] = leaf ? -1 : static_cast<int>(at + count) + level->first[i];
-      if (leaf) tree.leaf[at + i] = level->first[i];
+    auto next = static_cast<int>(at + level->balls.cols());
+    std::vector<int> below;
+    for (const int node : order) {
+      const int count = level->count[node];
+      tree.balls.col(at) = level->balls.col(node);
+      tree.children[at] = count;
+      tree.first_child[at] = count == 0 ? -1 : next;
+      if (count == 0) tree.leaf[at] = level->first[node];
+      for (int c = 0; c < count; ++c) below.push_back(level->first[node] + c);
+      next += count;
+      ++at;
     }
-    at += count;
+    order = std::move(below);
   }
   return tree;
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise decompose as a user runs it.
+#include "mortise/parts/decompose.hpp"
+
+#include "apps/program.hpp"
+#include "mortise/parts/format_part.hpp"
+#include "mortise/parts/read_part.hpp"
+#include "mortise/store/knots_file.hpp"
+#include "parts/shapes.hpp"
+
+namespace mortise::testing {
+namespace {
+
+class Decompose : public Program {
+ protected:
+  Decompose() {
+    write_file_atomically(path("torus.stl"), format_stl(shapes::torus(2.0, 0.7, 60, 30)));
+    write_file_atomically(path("open.ply"),
+                          format_ply(shapes::without_last(shapes::icosphere(1.0, 6), 240)));
+    write_file_atomically(path("empty.stl"), "");
+  }
+};
+
+TEST_F(Decompose, WritesBallsTreeAndFigures) {
+  const nlohmann::json figures =
+      json("decompose torus.stl -o torus.h5 --grid 32 --ply balls.ply --quiet");
+  const double epsilon = figures["epsilon"];
+  EXPECT_NEAR(epsilon, 0.5 * std::sqrt(3.0) * 5.4 / 32, 1e-6);
+  EXPECT_LE(figures["hausdorff"], epsilon * (1 + 1e-5));
+  EXPECT_GT(figures["hausdorff"], 0.3 * epsilon);
+  EXPECT_LT(figures["n3"], figures["n1"]);
+  EXPECT_EQ(figures["coverage"], 1.0);
+  EXPECT_GT(figures["seconds"], 0.0);
+
+  const KnotsFile file = read_knots_file(path("torus.h5"));
+  EXPECT_EQ(file.knots.size(), figures["n3"].get<long>());
+  ASSERT_TRUE(file.tree);
+  EXPECT_EQ(file.tree->size(), figures["tree_balls"].get<long>());
+  EXPECT_EQ(file.source_path, "torus.stl");
+  EXPECT_THAT(file.provenance.command_line, ::testing::HasSubstr("--grid 32"));
+  EXPECT_EQ(nlohmann::json::parse(file.provenance.options_json)["mu"], 0.25);
+  EXPECT_EQ(
+      read_part(path("balls.ply"), {.repair = {.find_self_intersections = false}}).mesh.size(),
+      20 * 16 * file.knots.size());
+  EXPECT_EQ(json("info torus.h5")["knots"]["count"], figures["n3"]);
+}
+
+TEST_F(Decompose, OptionsReachTheLibraryAndThreadsDoNotMatter) {
+  const auto n3 = [&](const std::string& options) {
+    return json("decompose torus.stl -o t.h5 --grid 24 --no-hausdorff --quiet " + options)["n3"]
+        .get<long>();
+  };
+  const long cover = n3("");
+  const long containment = n3("--reduction containment");
+  EXPECT_LT(cover, containment);
+  EXPECT_LT(containment, n3("--reduction none"));
+  EXPECT_LT(cover, n3("--method octree"));
+  EXPECT_LT(cover, n3("--method packing"));
+  EXPECT_LT(n3("--reduction none --mu 1"), n3("--reduction none --mu 0.1"));
+  EXPECT_EQ(n3("--weights share"), cover);
+  EXPECT_LT(read_knots_file(path("t.h5")).knots.weights.real().maxCoeff(), 1.0);
+
+  ::setenv("SOURCE_DATE_EPOCH", "0", 1);
+  const auto knots = [&](const std::string& threads) {
+    must("decompose torus.stl -o t.h5 --grid 24 --quiet --no-hausdorff --threads " + threads);
+    return read_knots_file(path("t.h5")).knots.points;
+  };
+  EXPECT_EQ(knots("1"), knots("2"));
+  ::unsetenv("SOURCE_DATE_EPOCH");
+}
+
+TEST_F(Decompose, SaysWhatIsAtFault) {
+  expect_user_error("decompose none.stl -o t.h5", "none.stl");
+  expect_user_error("decompose empty.stl -o t.h5", "empty.stl");
+  expect_user_error("decompose open.ply -o t.h5", "open.ply");
+  expect_user_error("decompose torus.stl -o t.h5 --grid 1", "--grid");
+  expect_user_error("decompose torus.stl -o t.h5 --mu 2", "--mu");
+  expect_user_error("decompose torus.stl -o t.h5 --method spheres", "--method");
+  expect_user_error("decompose torus.stl -o no/such/place/t.h5 --grid 8", "no/such/place");
+  expect_user_error("decompose torus.stl", "--output");
+  EXPECT_FALSE(std::filesystem::exists(path("t.h5")));
+  EXPECT_THAT(must("decompose --help").out, ::testing::HasSubstr("mortise decompose part.stl -o"));
+  const nlohmann::json open =
+      json("decompose open.ply -o t.h5 --allow-open --grid 16 --quiet --no-hausdorff");
+  EXPECT_GT(open["n3"], 0);
+}
+
+}  // namespace
+}  // namespace mortise::testing
