@@ -280,8 +280,13 @@ PoseList Mating::rank() const {
   placed = run.sieve(
       std::move(placed),
       [&](const RigidMotion& m) {
-        const RigidMotion first = run.pair->descend(m, 6.0 * tolerance, 1.0, 0.1, 5);
-        return run.pair->descend(first, 3.0 * tolerance, 1.0, 0.15, 5);
+        // From afar a wide energy finds the way, from near by it may lose it: both are tried.
+        const RigidMotion wide = run.pair->descend(
+            run.pair->descend(m, 6.0 * tolerance, 1.0, 0.1, 5), 3.0 * tolerance, 1.0, 0.15, 5);
+        const RigidMotion narrow = run.pair->descend(m, 2.0 * tolerance, 1.0, 0.15, 6);
+        return run.score(wide, 2.0 * tolerance, 0.25) >= run.score(narrow, 2.0 * tolerance, 0.25)
+                   ? wide
+                   : narrow;
       },
       2.0 * tolerance, 0.25, run.options.cluster_radius, keep);
   placed = run.sieve(
