@@ -16,8 +16,8 @@ struct ContactOptions {
                               ///< smaller part's diameter; > 0
   double resolution = 0.015;  ///< side of the smallest cells that the penetration's volume is
                               ///< summed over; fraction of the smaller part's diameter; > 0
-  int samples = 5000;  ///< points on the smaller surface; >= 100
-  int threads = 0;     ///< 0 = all cores; never changes the result
+  int samples = 5000;         ///< points on the smaller surface; >= 100
+  int threads = 0;            ///< 0 = all cores; never changes the result
 };
 
 /// Lengths, areas and volumes in the parts' unit and its powers; directions in the fixed frame.
