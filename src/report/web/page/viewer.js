@@ -202,7 +202,7 @@ export async function makeViewer(run) {
     viewer.setView([view[0], view[1], view[2], view[3], ...q]);
     if (isMesh) meshes.zoom();
     else viewer.zoomTo();
-    viewer.zoom(isMesh ? 1.25 : 0.9);
+    if (!isMesh) viewer.zoom(0.9);
     viewer.render();
   }
 
