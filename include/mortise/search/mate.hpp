@@ -53,7 +53,7 @@ struct MateOptions {
   double overlap = 2.0;  ///< what an area of penetration one tolerance deep costs against an area
                          ///< of contact; >= 0
   int samples = 3000;    ///< points on the smaller surface; >= 100
-  int polished = 60;     ///< placements polished to the end; >= 1
+  int polished = 100;    ///< placements polished to the end; >= 1
   int poses = 100;       ///< reported; >= 1
   double cluster_radius = 0.02;  ///< placements whose RMSD to a better one is below are dropped
   int threads = 0;               ///< 0 = all cores; never changes the result
