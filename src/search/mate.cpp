@@ -133,12 +133,12 @@ struct Mating::Impl {
   }
 
   [[nodiscard]] RigidMotion polish(const RigidMotion& start) const {
-    // Ever narrower, and ever harder on what penetrates. Descending the energy may lose in the
+    // Ever narrower. Descending the energy may lose in the
     // score: the best of all stages is what counts, never worse than the start.
     struct Stage {
       double sigma, penalty;
     };
-    constexpr Stage kStages[] = {{4.0, 2.0}, {2.0, 2.0}, {1.0, 3.0}, {0.5, 6.0}, {0.5, 12.0}};
+    constexpr Stage kStages[] = {{4.0, 2.0}, {2.0, 2.0}, {1.0, 2.0}, {0.5, 3.0}};
     RigidMotion motion = start;
     RigidMotion best = start;
     const double tolerance = options.tolerance * unit;
