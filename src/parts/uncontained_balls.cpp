@@ -64,6 +64,7 @@ class Octave {
 std::vector<Eigen::Index> uncontained_balls(const Eigen::Matrix4Xd& balls, double growth) {
   if (!(growth >= 0.0) || !std::isfinite(growth))
     throw InputError("uncontained_balls: growth must be >= 0, got " + std::to_string(growth));
+  if (balls.cols() == 0) return {};
   if (!balls.allFinite() || (balls.row(3).array() < 0.0).any())
     throw InputError("uncontained_balls: balls must be finite with radii >= 0");
   std::vector<Eigen::Index> order(static_cast<std::size_t>(balls.cols()));

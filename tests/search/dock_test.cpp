@@ -95,7 +95,7 @@ TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   EXPECT_EQ(list.poses.size(), 60U);
 }
 
-TEST(Docking, PolishMovesPosesUphillMergesSomeAndKeepsTheirScores) {
+TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
   const Molecule fixed = blob(300, 1), moving = blob(150, 2);
   const PoseDistance distance(atom_positions(moving));
   for (const bool rescore : {true, false}) {
@@ -109,7 +109,9 @@ TEST(Docking, PolishMovesPosesUphillMergesSomeAndKeepsTheirScores) {
     ASSERT_TRUE(polished.search().run());
     const PoseList after = polished.rank(), before = plain.rank();
     EXPECT_EQ(after.channel_names, before.channel_names);
-    EXPECT_LT(after.poses.size(), before.poses.size());
+    // Whether any fall together depends on the last bits; that they are merged is shown in
+    // polish_test.
+    EXPECT_LE(after.poses.size(), before.poses.size());
     EXPECT_GT(after.poses.size(), before.poses.size() / 2);
     EXPECT_EQ(after.poses[0].score, before.poses[0].score);
     EXPECT_EQ(after.poses[0].channels, before.poses[0].channels);
