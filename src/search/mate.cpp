@@ -11,7 +11,9 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/parts/diameter.hpp"
+#include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/sample_surface.hpp"
+#include "mortise/parts/skeletal_density.hpp"
 #include "mortise/search/cluster.hpp"
 #include "search/mate_contact.hpp"
 #include "search/mate_directions.hpp"
@@ -36,6 +38,8 @@ void check_options(const MateOptions& o) {
   positive("tolerance", o.tolerance);
   if (!(o.penalty > 1.0)) refuse("penalty must be > 1, got " + std::to_string(o.penalty));
   if (!(o.feature >= 0.0)) refuse("feature must be >= 0, got " + std::to_string(o.feature));
+  if (!(o.skeletal >= 0.0 && std::isfinite(o.skeletal)))
+    refuse("skeletal must be >= 0, got " + std::to_string(o.skeletal));
   if (!(o.flat >= 0.0 && o.flat <= 1.0))
     refuse("flat must be 0 to 1, got " + std::to_string(o.flat));
   if (!(o.overlap >= 0.0)) refuse("overlap must be >= 0, got " + std::to_string(o.overlap));
@@ -71,6 +75,17 @@ Knots skin_knots(const DistanceField& field, const SampledSkinOptions& options) 
                             Eigen::Map<const Eigen::VectorXd>(
                                 distances.data(), static_cast<Eigen::Index>(distances.size())),
                             options);
+}
+
+// The skeletal density [HA, Eq. 2-3] at the nodes of the skin: a field like any other, so that it
+// turns exactly and no spectrum is interpolated.
+Knots skeletal_knots(const MatePart& part, const Knots& skin, const MateOptions& options) {
+  const auto* solid = dynamic_cast<const MeshSolid*>(part.solid.get());
+  if (solid == nullptr)
+    throw InputError("Mating: the skeletal channel needs parts whose solids are MeshSolid");
+  return {skin.points,
+          skeletal_density_at(*solid, skin.points.topRows<3>(),
+                              {.penalty = options.penalty, .threads = options.threads})};
 }
 
 // `count` turns about the fixed axis, for each way round that the moving axis can lie along it;
@@ -228,8 +243,12 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   search.per_rotation = options.per_rotation;
   search.separation = options.separation * unit;
   search.threads = options.threads;
-  const std::vector<Channel> channels{
+  std::vector<Channel> channels{
       sampled_channel("skin", 1.0, impl_->fixed_knots, impl_->moving_knots, skin.spacing)};
+  if (options.skeletal > 0.0)
+    channels.push_back(sampled_channel(
+        "skeletal", options.skeletal, skeletal_knots(fixed, impl_->fixed_knots, options),
+        skeletal_knots(moving, impl_->moving_knots, options), skin.spacing));
   // The search's frame depends on the knots alone: a search on a coarse grid tells it.
   SearchOptions coarse = search;
   coarse.spacing = 4.0 * search.spacing;

@@ -38,6 +38,7 @@ std::string to_json(const MateOptions& o) {
       {"skin", o.skin},
       {"penalty", o.penalty},
       {"feature", o.feature},
+      {"skeletal", o.skeletal},
       {"detail", o.detail},
       {"tolerance", o.tolerance},
       {"flat", o.flat},

@@ -150,6 +150,21 @@ TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
     EXPECT_LE(list.poses[i].score, list.poses[i - 1].score);
 }
 
+// By the skeletal densities nearly alone: the skin's share of the score is a hundredth.
+TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
+  std::mt19937 random(13);
+  const RigidMotion start = random_motion(random, 2.5, 10.0);
+  const MatePart moving = tenon_plate(start);
+  MateOptions options = small_options();
+  options.skeletal = 100.0;
+  Mating mating(mortise_block(), moving, options);
+  ASSERT_TRUE(mating.search().run());
+  const PoseList list = mating.rank();
+  EXPECT_LT(largest_error(moving, inverse(start), list.poses.front().moving_in_fixed), 0.002);
+  options.skeletal = -1.0;
+  EXPECT_THROW(Mating(mortise_block(), moving, options), InputError);
+}
+
 TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
   MateOptions options = small_options();
   options.rotations = 300;

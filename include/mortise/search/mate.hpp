@@ -46,6 +46,8 @@ struct MateOptions {
   double penalty = 3.0;      ///< lambda, what the core weighs against the skin; > 1
   double feature = 3.0;      ///< emphasis on tips and hollows over flat faces (sampled_field.hpp);
                              ///< >= 0
+  double skeletal = 0.0;     ///< weight of a second channel, the parts' skeletal densities, beside
+                             ///< the double skin's 1; >= 0, 0 = none. Needs solids of meshes
   double detail = 0.01;      ///< grid step of the parts' distances, for judging contact; > 0
   double tolerance = 0.005;  ///< distance up to which surfaces are in contact; > 0
   double flat = 0.1;  ///< what contact along a single direction counts against contact all round;
@@ -68,7 +70,8 @@ struct MateOptions {
 /// One mating run that can be stopped and taken up again.
 class Mating {
  public:
-  /// @throws InputError if a part has no surface or no inside, or an option is out of range
+  /// @throws InputError if a part has no surface or no inside, an option is out of range, or the
+  /// skeletal channel is asked for and a solid is no MeshSolid
   Mating(const MatePart& fixed, const MatePart& moving, const MateOptions& options = {});
   ~Mating();
   Mating(Mating&&) noexcept;
