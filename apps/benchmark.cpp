@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <thread>
@@ -22,6 +23,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/version.hpp"
 #include "mortise/metrics/reference_complex.hpp"
+#include "mortise/report/pictures.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "quality_summary.hpp"
 
@@ -43,6 +45,7 @@ struct Options {
   std::string runs;
   int jobs = 1;
   bool force = false;
+  bool png = false;
 };
 
 constexpr int kInterruptedCode = 130;
@@ -107,9 +110,9 @@ ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const Opti
   const DockBody moving = read_dock_body(pair.moving, settings.read);
   CommonOptions common = options.common;
   common.quiet = common.quiet || options.jobs > 1;
-  DockWatch watch;
+  SearchWatch watch;
   watch.progress = make_progress(progress_label, common);
-  DockResult result =
+  SearchResult result =
       dock(fixed, moving, settings,
            make_provenance(command_line(), settings_json(settings).dump(), *settings.random_start),
            watch);
@@ -265,6 +268,24 @@ std::string summary_path(const std::string& output) {
   return (path.parent_path() / (path.stem().string() + "_summary.csv")).string();
 }
 
+std::string picture_path(const std::string& output) {
+  const fs::path path(output);
+  return (path.parent_path() / (path.stem().string() + "_success.png")).string();
+}
+
+void draw_curves(const std::vector<ResultRow>& rows, const std::string& path) {
+  std::vector<SuccessCurve> curves = {
+      {"acceptable", {}}, {"i-RMSD up to 2.5 \u00c5", {}}, {"medium", {}}};
+  const char* const columns[] = {"first_acceptable", "first_irmsd_2_5", "first_medium"};
+  for (const ResultRow& row : rows)
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+      const std::string& text = row[columns[k]];
+      curves[k].first_ranks.push_back(text.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                   : std::stod(text));
+    }
+  draw_success(curves, kSuccessRanks.back(), path);
+}
+
 Json success_json(const std::vector<SuccessCount>& counts) {
   Json list = Json::array();
   for (const SuccessCount& count : counts) {
@@ -328,6 +349,7 @@ void execute(Options options) {
 
   const std::vector<SuccessCount> counts = count_successes(chosen);
   write_file_atomically(summary_path(options.output), success_csv(counts));
+  if (options.png) draw_curves(chosen, picture_path(options.output));
   if (options.common.json) {
     const Json json = {{"pairs", chosen.size()},
                        {"failed", counts.front().failed},
@@ -373,6 +395,7 @@ void add_benchmark(CLI::App& program) {
                   "cores")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
+  command.add_flag("--png", options->png, "Draw the success curves too: NAME_success.png");
   command.add_flag("--force", options->force, "Replace results of other options");
   add_dock_options(command, options->arguments);
   add_common_options(

@@ -10,12 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Value>
-struct Field {
-  const char* key;   // in to_json(DockOptions)
-  const char* flag;  // on the command line
-  const char* help;
-  Value& (*of)(DockOptions&);
-};
+using Field = OptionField<DockOptions, Value>;
 
 const Field<double> kReals[] = {
     {"spacing", "--spacing", "Grid step, angstrom",
@@ -55,19 +50,7 @@ const Field<std::string> kTexts[] = {
 
 template <class Value>
 void add_field(CLI::App& command, DockArguments& arguments, const Field<Value>& field) {
-  DockOptions defaults = dock_preset("default");
-  const Json standard = field.of(defaults);
-  const std::string shown = standard == "" ? "none" : standard.dump();
-  auto of = field.of;
-  command
-      .add_option_function<Value>(
-          field.flag,
-          [&arguments, of](const Value& value) {
-            arguments.overrides.emplace_back(
-                [of, value](DockSettings& s) { of(s.options) = value; });
-          },
-          field.help)
-      ->default_str(shown);
+  add_option_field(command, arguments, dock_preset("default"), field);
 }
 
 }  // namespace
@@ -89,6 +72,9 @@ void add_dock_options(CLI::App& command, DockArguments& arguments) {
   };
   add_switch("--no-rescore", "Rank by shape alone",
              [](DockSettings& s) { s.options.rescore = false; });
+  add_switch("--polish", "Refine kept poses", [](DockSettings& s) { s.options.polish = true; });
+  add_switch("--no-polish", "Leave kept poses where the search found them",
+             [](DockSettings& s) { s.options.polish = false; });
   add_switch("--no-ligands", "Leave cofactors and other hetero groups out",
              [](DockSettings& s) { s.read.keep_ligands = false; });
   add_switch("--no-ions", "Leave ions out", [](DockSettings& s) { s.read.keep_ions = false; });
@@ -123,6 +109,7 @@ DockSettings parse_settings(const std::string& text) {
     for (const Field<std::string>& field : kTexts)
       field.of(settings.options) = json.at(field.key).get<std::string>();
     settings.options.rescore = json.at("rescore").get<bool>();
+    settings.options.polish = json.at("polish").get<bool>();
     settings.read.keep_ligands = json.at("ligands").get<bool>();
     settings.read.keep_ions = json.at("ions").get<bool>();
     if (!json.at("random_start").is_null())
@@ -132,19 +119,6 @@ DockSettings parse_settings(const std::string& text) {
   }
   expect_same_settings(json, settings_json(settings), "this program");
   return settings;
-}
-
-void expect_same_settings(const Json& recorded, const Json& asked, const std::string& who) {
-  const auto text = [](const Json& all, const std::string& key) {
-    return all.contains(key) ? all[key].dump() : "nothing";
-  };
-  const auto compare = [&](const std::string& key) {
-    if (text(recorded, key) != text(asked, key))
-      throw InputError(who + ": " + key + " differs: the file was begun with " +
-                       text(recorded, key) + ", asked for now is " + text(asked, key));
-  };
-  for (const auto& item : recorded.items()) compare(item.key());
-  for (const auto& item : asked.items()) compare(item.key());
 }
 
 }  // namespace mortise::app

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "mortise/molecules/read_molecule.hpp"
 #include "mortise/search/dock.hpp"
+#include "search_command.hpp"
 
 namespace mortise::app {
 
@@ -21,11 +20,8 @@ struct DockSettings {
   std::optional<std::uint64_t> random_start;  ///< seed of the moving body's start; none = as it is
 };
 
-/// What the user asked for: a preset, and settings that go over it.
-struct DockArguments {
-  std::optional<std::string> preset;
-  std::vector<std::function<void(DockSettings&)>> overrides;
-};
+/// What the user asked for.
+using DockArguments = SearchArguments<DockSettings>;
 
 /// Adds --preset and the options of the table to a command, with the default preset's values.
 void add_dock_options(CLI::App& command, DockArguments& arguments);
@@ -41,9 +37,5 @@ void add_dock_options(CLI::App& command, DockArguments& arguments);
 /// The settings that settings_json() recorded. @throws InputError if this program does not know all
 /// of them
 [[nodiscard]] DockSettings parse_settings(const std::string& json);
-
-/// Throws InputError naming `who` and the first setting in which the two differ.
-void expect_same_settings(const nlohmann::ordered_json& recorded,
-                          const nlohmann::ordered_json& asked, const std::string& who);
 
 }  // namespace mortise::app

@@ -2,15 +2,12 @@
 // One docking from two structure files to a run: what `dock` and `benchmark` both do.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "dock_options.hpp"
-#include "mortise/core/progress.hpp"
 #include "mortise/store/run_file.hpp"
+#include "search_job.hpp"
 
 namespace mortise::app {
 
@@ -32,36 +29,11 @@ struct DockBody {
                                           const std::string& name, const std::string& text,
                                           const ReadMoleculeOptions& options);
 
-/// A random rotation and a translation of up to 50 angstrom per axis, the same for a seed
-/// everywhere.
-[[nodiscard]] RigidMotion random_start(std::uint64_t seed);
-
-struct DockWatch {
-  std::function<void()>
-      prepared;  ///< called once, when nothing is left to be refused; may be empty
-  ProgressCallback progress;
-  double checkpoint_seconds = 30.0;                 ///< between two calls of save; >= 0
-  std::function<void(const Run& unfinished)> save;  ///< without poses; empty = none
-};
-
-struct DockFigures {
-  std::array<int, 3> grid_size = {};
-  double spacing = 0.0;
-  double seconds_prepare = 0.0;  ///< knots, rotations, spectra of the fixed body
-  double seconds_search = 0.0;
-  double seconds_rank = 0.0;
-  bool whole = false;  ///< the search ran from the first to the last rotation here
-};
-
-struct DockResult {
-  Run run;  ///< complete, or with a checkpoint and the poses so far
-  DockFigures figures;
-};
-
-/// Docks. run.seconds and figures of time are left to the caller.
+/// Docks. run.seconds and figures of time are left to the caller. A random start moves the ligand
+/// by up to 50 angstrom per axis.
 /// @param earlier  a checkpoint of the same inputs and settings to go on from
-[[nodiscard]] DockResult dock(const DockBody& fixed, const DockBody& moving,
-                              const DockSettings& settings, const Provenance& provenance,
-                              const DockWatch& watch, const Run* earlier = nullptr);
+[[nodiscard]] SearchResult dock(const DockBody& fixed, const DockBody& moving,
+                                const DockSettings& settings, const Provenance& provenance,
+                                const SearchWatch& watch, const Run* earlier = nullptr);
 
 }  // namespace mortise::app

@@ -4,9 +4,11 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "evaluate_parts.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/reference_complex.hpp"
 #include "mortise/molecules/read_molecule.hpp"
+#include "mortise/report/interface_columns.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/inputs.hpp"
 #include "pose_table.hpp"
@@ -22,9 +24,12 @@ struct Options {
   std::string run;
   std::string reference_fixed;
   std::string reference_moving;
+  std::string reference_pose;
+  std::string pair;
   std::string fixed_path;
   std::string moving_path;
   bool force = false;
+  std::size_t interfaces = 0;  ///< best poses whose interface is described
 };
 
 std::string shown(const ComplexMetrics& m) {
@@ -65,8 +70,15 @@ void print_summary(const Run& run, const ReferenceSummary& reference,
 
 void execute(const Options& options) {
   Run run = read_run(options.run);
-  if (run.kind != "dock")
-    throw InputError("evaluate: expected a docking run, got a " + run.kind + " run");
+  if (run.kind == "mate") {
+    if (options.reference_pose.empty())
+      throw InputError("evaluate: a run of parts needs --reference-pose");
+    evaluate_parts(options.run, options.reference_pose, options.pair,
+                   {options.moving_path, options.force}, options.common);
+    return;
+  }
+  if (options.reference_fixed.empty() || options.reference_moving.empty())
+    throw InputError("evaluate: a docking needs --reference-fixed and --reference-moving");
   if (run.poses.poses.empty()) throw InputError("evaluate: " + options.run + " holds no poses yet");
   check_writable(options.run);
   const Molecule fixed =
@@ -83,6 +95,11 @@ void execute(const Options& options) {
       evaluate_poses(reference, poses, options.common.threads);
   const ComplexMetrics superposed = reference.evaluate(reference.superposed_pose());
   set_metrics(run, metrics);
+  if (options.interfaces > 0)
+    set_metric_columns(
+        run,
+        interface_columns(MolecularInterface(fixed, moving, {.threads = options.common.threads}),
+                          run.poses, options.interfaces, options.common.threads));
   write_run(options.run, run);
 
   const QualitySummary summary = summarise(metrics);
@@ -105,26 +122,33 @@ void execute(const Options& options) {
 void add_evaluate(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App& command = *program.add_subcommand(
-      "evaluate", "Measure a run's poses against the known complex, add the metrics to the run");
+      "evaluate", "Measure a run's poses against the known answer, add the metrics to the run");
   command.add_option("run", options->run, "Run file; its metrics are added or replaced")
       ->required();
-  command
-      .add_option("--reference-fixed", options->reference_fixed,
-                  "Receptor in the complex: FILE, or FILE#MODEL:CHAIN,CHAIN")
-      ->required();
-  command
-      .add_option("--reference-moving", options->reference_moving,
-                  "Ligand in the complex, likewise, in the same frame")
-      ->required();
-  command.add_option("--fixed", options->fixed_path, "Where the receptor's file is now");
-  command.add_option("--moving", options->moving_path, "Where the ligand's file is now");
+  command.add_option("--reference-fixed", options->reference_fixed,
+                     "Receptor in the complex: FILE, or FILE#MODEL:CHAIN,CHAIN");
+  command.add_option("--reference-moving", options->reference_moving,
+                     "Ligand in the complex, likewise, in the same frame");
+  command.add_option("--reference-pose,--mates", options->reference_pose,
+                     "Parts: file of true placements, as parts/mates.json");
+  command.add_option("--pair", options->pair,
+                     "Parts: name of the pair in that file; default: by the parts' file names");
+  command.add_option("--fixed", options->fixed_path,
+                     "Where the receptor's (fixed part's) file is now");
+  command.add_option("--moving", options->moving_path,
+                     "Where the ligand's (moving part's) file is now");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
+  command.add_option("--interface", options->interfaces,
+                     "Describe the interfaces of the best N poses too: buried area, contacts,\n"
+                     "hydrogen bonds, clashes, shape complementarity Sc");
   add_common_options(
       command, options->common,
       "  mortise evaluate run.h5 --reference-fixed complex.pdb:A --reference-moving complex.pdb:B\n"
       "  mortise evaluate run.h5 --reference-fixed rec_b.pdb --reference-moving lig_b.pdb --json\n"
+      "  mortise evaluate mate.h5 --reference-pose parts/mates.json\n"
       "Classes are CAPRI's, from i-RMSD, L-RMSD and fnat. The superposed pose, each unbound body\n"
-      "laid on its own reference, shows what a rigid docking can reach.");
+      "laid on its own reference, shows what a rigid docking can reach. Of parts the largest\n"
+      "and rms distance of the surface from its true place are given, over the diameter.");
   command.callback([options] { execute(*options); });
 }
 

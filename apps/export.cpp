@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mortise export: a run's poses as PDB, mmCIF, CSV, JSON or ZDOCK .out.
+// mortise export: a run's poses as PDB, mmCIF, CSV, JSON or ZDOCK .out, or as placed parts.
 #include "mortise/store/export.hpp"
 
 #include <cstdio>
@@ -35,6 +35,45 @@ std::string default_output(const std::string& run, const std::string& format) {
       .string();
 }
 
+bool is_for_parts(ExportFormat format) {
+  return format == ExportFormat::kStl || format == ExportFormat::kPly ||
+         format == ExportFormat::kStep;
+}
+
+// "x.stl" becomes "x_3.stl".
+std::string with_rank(const std::string& path, std::size_t rank) {
+  const fs::path p(path);
+  return (p.parent_path() /
+          (p.stem().string() + "_" + std::to_string(rank) + p.extension().string()))
+      .string();
+}
+
+// A file of parts holds one placement: several go to several files.
+std::vector<std::string> export_parts(const Run& run, ExportFormat format, const Options& options,
+                                      const std::string& output) {
+  const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
+  if (output == "-" && poses.size() > 1)
+    throw InputError("export: stdout takes one placement of parts; choose it by --pose");
+  if (run.kind != "mate")
+    throw InputError("format " + options.format + " is for parts; this is a " + run.kind + " run");
+  std::string fixed;
+  if (options.choice.complex)
+    fixed = locate_input(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
+  const std::string moving =
+      locate_input(run.moving, run.provenance, "moving", {options.moving_path, options.force});
+  std::vector<std::string> files;
+  for (const std::size_t i : poses) {
+    const std::string text = export_part(run, format, i, fixed, moving, options.choice);
+    if (output == "-") {
+      files.push_back(text);
+      break;
+    }
+    files.push_back(poses.size() == 1 ? output : with_rank(output, i + 1));
+    write_file_atomically(files.back(), text);
+  }
+  return files;
+}
+
 std::string export_text(const Run& run, ExportFormat format, const Options& options) {
   switch (format) {
     case ExportFormat::kCsv:
@@ -50,8 +89,7 @@ std::string export_text(const Run& run, ExportFormat format, const Options& opti
       if (!options.moving_path.empty()) named.moving.path = options.moving_path;
       return export_zdock(named, options.choice);
     }
-    case ExportFormat::kPdb:
-    case ExportFormat::kMmcif:
+    default:
       break;
   }
   (void)chosen_poses(run, format, options.choice);  // fail before the molecules are read
@@ -91,22 +129,30 @@ void execute(const Options& options) {
     refuse_to_overwrite_inputs(output, run, options);
     check_writable(output, 0);
   }
-  const std::string text = export_text(run, format, options);
+  std::string text;
+  std::vector<std::string> files{output};
+  if (is_for_parts(format)) {
+    files = export_parts(run, format, options, to_stdout ? "-" : output);
+    if (to_stdout) text = files.front();
+  } else {
+    text = export_text(run, format, options);
+  }
   if (to_stdout) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
       throw InputError("export: writing to stdout failed");
     return;
   }
-  write_file_atomically(output, text);
+  if (!is_for_parts(format)) write_file_atomically(output, text);
   const std::size_t count = chosen_poses(run, format, options.choice).size();
-  if (options.common.json)
-    std::printf(
-        "%s\n",
-        nlohmann::ordered_json{{"file", output}, {"format", options.format}, {"poses", count}}
-            .dump()
-            .c_str());
-  else if (!options.common.quiet)
-    std::printf("wrote %zu %s to %s\n", count, count == 1 ? "pose" : "poses", output.c_str());
+  if (options.common.json) {
+    nlohmann::ordered_json json{
+        {"file", files.front()}, {"format", options.format}, {"poses", count}};
+    if (files.size() > 1) json["files"] = files;
+    std::printf("%s\n", json.dump().c_str());
+  } else if (!options.common.quiet) {
+    std::printf("wrote %zu %s to %s%s\n", count, count == 1 ? "pose" : "poses",
+                files.front().c_str(), files.size() > 1 ? (" ... " + files.back()).c_str() : "");
+  }
 }
 
 }  // namespace
@@ -114,19 +160,22 @@ void execute(const Options& options) {
 void add_export(CLI::App& program) {
   auto options = std::make_shared<Options>();
   CLI::App& command = *program.add_subcommand(
-      "export", "Write a run's poses as PDB, mmCIF, CSV, JSON or ZDOCK .out");
+      "export", "Write a run's poses as PDB, mmCIF, CSV, JSON, ZDOCK .out, or as placed parts");
   command.add_option("run", options->run, "Run file")->required();
-  command.add_option("--format", options->format, "pdb, cif, csv, json or zdock")->required();
+  command
+      .add_option("--format", options->format,
+                  "pdb, cif, csv, json, zdock; of parts stl, ply, step")
+      ->required();
   command
       .add_option("--top", options->choice.top,
-                  "Best poses to write; 0 = 10 for pdb and cif, all otherwise")
+                  "Best poses to write; 0 = 10 for pdb and cif, 1 of parts, all otherwise")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--pose", options->choice.pose, "Only the pose of this rank, from 1")
       ->check(CLI::PositiveNumber)
       ->excludes("--top");
   command.add_flag("--complex", options->choice.complex,
-                   "pdb, cif: the receptor too, in every model");
+                   "pdb, cif, stl, ply, step: the fixed body too, in every model");
   command.add_option("-o,--output", options->output,
                      "File to write; - = stdout; default: RUN_poses.FORMAT beside the run");
   command.add_option("--fixed", options->fixed_path, "Where the receptor's file is now");
@@ -134,6 +183,7 @@ void add_export(CLI::App& program) {
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
   add_common_options(command, options->common,
                      "  mortise export run.h5 --format pdb --top 10 --complex\n"
+                     "  mortise export mate.h5 --format stl --pose 1 --complex\n"
                      "  mortise export run.h5 --format csv -o - | head\n"
                      "  mortise export run.h5 --format zdock --top 2000 -o run.out");
   command.callback([options] { execute(*options); });

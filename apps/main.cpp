@@ -14,12 +14,16 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", std::string("mortise ") + mortise::kVersion);
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
+  mortise::app::add_assemble(program);
   mortise::app::add_benchmark(program);
+  mortise::app::add_collide(program);
   mortise::app::add_decompose(program);
   mortise::app::add_dock(program);
   mortise::app::add_evaluate(program);
   mortise::app::add_export(program);
   mortise::app::add_info(program);
+  mortise::app::add_report(program);
+  mortise::app::add_mate(program);
   mortise::app::add_rotations(program);
   program.footer(
       "Exit codes: 0 done; 1 the input or the options are at fault; 2 internal error;\n"

@@ -45,7 +45,8 @@ std::string pose_table(const Run& run, std::size_t count) {
   for (const std::string& channel : run.poses.channel_names) text += head(channel, 12);
   for (const MetricColumn& metric : run.metrics) text += head(metric.name, metric_width(metric));
   if (run.metrics.empty())
-    text += "   quaternion w x y z                    translation x y z, angstrom";
+    text += std::string("   quaternion w x y z                    translation x y z") +
+            (run.kind == "dock" ? ", angstrom" : "");
   text += "\n";
   for (std::size_t i = 0; i < std::min(count, run.poses.poses.size()); ++i) {
     const Pose& pose = run.poses.poses[i];

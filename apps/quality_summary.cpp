@@ -3,6 +3,9 @@
 #include "quality_summary.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "mortise/report/interface_columns.hpp"
 
 namespace mortise::app {
 
@@ -48,21 +51,18 @@ nlohmann::ordered_json to_json(const QualitySummary& summary) {
 }
 
 void set_metrics(Run& run, const std::vector<ComplexMetrics>& metrics) {
+  std::vector<MetricColumn> columns;
   const auto set = [&](const char* name, auto value) {
     MetricColumn column{name, {}};
     for (const ComplexMetrics& m : metrics) column.values.push_back(value(m));
-    const auto old = std::find_if(run.metrics.begin(), run.metrics.end(),
-                                  [&](const MetricColumn& c) { return c.name == name; });
-    if (old != run.metrics.end())
-      *old = std::move(column);
-    else
-      run.metrics.push_back(std::move(column));
+    columns.push_back(std::move(column));
   };
   set("interface_rmsd", [](const ComplexMetrics& m) { return m.interface_rmsd; });
   set("ligand_rmsd", [](const ComplexMetrics& m) { return m.ligand_rmsd; });
   set("fnat", [](const ComplexMetrics& m) { return m.fnat; });
   set("dockq", [](const ComplexMetrics& m) { return m.dockq; });
   set("capri", [](const ComplexMetrics& m) { return static_cast<double>(m.capri); });
+  set_metric_columns(run, std::move(columns));
 }
 
 }  // namespace mortise::app

@@ -15,6 +15,7 @@
 
 #include "mortise/parts/distance_grid.hpp"
 #include "mortise/parts/mesh_solid.hpp"
+#include "mortise/parts/skeletal_density.hpp"
 #include "parts/shapes.hpp"
 
 namespace {
@@ -110,5 +111,14 @@ int main(int argc, char** argv) {
   std::printf("inside: %ld nodes\n",
               static_cast<long>(std::count_if(distances.values.begin(), distances.values.end(),
                                               [](float d) { return d < 0; })));
+  for (const double sigma : sigmas) {
+    const Watch own;
+    const auto density =
+        mortise::skeletal_density(solid, distances, {.thickness = sigma, .threads = threads});
+    own.report("skeletal density, sigma " + std::to_string(sigma).substr(0, 4));
+    std::complex<double> sum = 0.0;
+    for (const auto& value : density.values) sum += std::complex<double>(value);
+    std::printf("sum: %.6g %.6g\n", sum.real(), sum.imag());
+  }
   return 0;
 }

@@ -25,11 +25,15 @@ packages() {
   done <scripts/packages.txt
 }
 
-# missing SECTION...: those of them that are not installed.
+# missing SECTION...: those of them that neither are installed nor come with a package that is.
 missing() {
-  local name
+  local name provided
+  # NodeSource's nodejs, for one, provides npm and conflicts with the package of that name.
+  provided=$(dpkg-query -W -f '${db:Status-Status} ${Provides}\n' 2>/dev/null |
+    sed -n 's/^installed //p' | tr ',' '\n' | sed 's/^ *//; s/[ (].*//')
   for name in $(packages "$@"); do
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || echo "$name"
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] ||
+      grep -qxF -- "$name" <<<"$provided" || echo "$name"
   done
 }
 

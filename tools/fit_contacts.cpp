@@ -150,6 +150,7 @@ Choice sample_pair(const std::vector<std::string>& row, const std::string& folde
   DockOptions dock;
   dock.threads = 1;
   dock.rescore = rescore;
+  dock.polish = false;  // a pose's features are those of the place where it is ranked
   dock.potential = potential_file;
   dock.poses = dock.rotations * dock.search.per_rotation;  // all of them, best first
   dock.cluster_radius = 0.0;

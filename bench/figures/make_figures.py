@@ -128,7 +128,86 @@ def se2(maker):
     maker.save(figure, "se2_obstacle.png")
 
 
-FIGURES = {"hausdorff": hausdorff, "se2": se2}
+def plane(maker):
+    """All rows of gap_data plane as grids, by modes."""
+    rows = maker.rows("gap_plane", "gap_data", "plane")
+    threshold = float(maker.comments[0].split()[2])
+    xs = sorted({float(r["x"]) for r in rows})
+    at = {x: i for i, x in enumerate(xs)}
+    grids = {}
+    for r in rows:
+        grid = grids.setdefault(int(r["modes"]), {k: np.zeros((len(xs), len(xs))) for k in r if k not in ("modes", "x", "y")})
+        for name, values in grid.items():
+            values[at[float(r["x"])], at[float(r["y"])]] = float(r[name])
+    return np.array(xs), grids, threshold
+
+
+def convergence(maker):
+    """Gap function, terms to reject and gradient field for growing numbers of modes [FC, Fig. 5]."""
+    xs, grids, threshold = plane(maker)
+    grid_x, grid_y = np.meshgrid(xs, xs, indexing="ij")
+    figure, axes = plt.subplots(3, len(grids), figsize=(10, 7.6), sharex=True, sharey=True)
+    top = max(np.abs(g["reference"]).max() for g in grids.values())
+    for column, (modes, g) in enumerate(sorted(grids.items())):
+        axes[0, column].pcolormesh(grid_x, grid_y, g["value"], cmap="viridis", vmin=0, vmax=top, rasterized=True)
+        axes[0, column].contour(grid_x, grid_y, g["reference"], levels=[threshold], colors="w", linewidths=0.8)
+        axes[0, column].set_title(f"m' = {modes:,}")
+        share = np.where(g["rejected"] > 0, g["terms"] / modes, np.nan)
+        image = axes[1, column].pcolormesh(grid_x, grid_y, share, cmap="magma_r", vmin=0, vmax=1, rasterized=True)
+        step = 7
+        axes[2, column].contour(grid_x, grid_y, g["value"], levels=[threshold], colors=[ACCENT], linewidths=1)
+        length = np.hypot(g["gx"], g["gy"]) + 1e-9
+        shown = np.where(g["value"] > threshold, 1.0 / length, 0.0)[::step, ::step]
+        axes[2, column].quiver(grid_x[::step, ::step], grid_y[::step, ::step], -g["gx"][::step, ::step] * shown,
+                               -g["gy"][::step, ::step] * shown, color=INK, scale=22, width=0.006)
+        for row in range(3):
+            axes[row, column].set_aspect("equal")
+            axes[row, column].grid(False)
+    for axis, label in zip(axes[:, 0], ("gap function\n(white: exact outline)", "part of the modes\nneeded to reject", "way out and\nlevel set")):
+        axis.set_ylabel(label)
+    figure.colorbar(image, ax=axes[1, :], fraction=0.02)
+    maker.save(figure, "gap_convergence.png")
+
+
+def residual(maker):
+    """A section through the gap function and what is missing of it, by modes [SD, Fig. 7]."""
+    xs, grids, _ = plane(maker)
+    grid_x, grid_y = np.meshgrid(xs, xs, indexing="ij")
+    figure, axes = plt.subplots(2, len(grids) + 1, figsize=(11, 4.6), sharex=True, sharey=True)
+    reference = next(iter(grids.values()))["reference"]
+    top = np.abs(reference).max()
+    axes[0, 0].pcolormesh(grid_x, grid_y, reference, cmap="viridis", vmin=0, vmax=top, rasterized=True)
+    axes[0, 0].set_title("reference")
+    axes[1, 0].set_axis_off()
+    for column, (modes, g) in enumerate(sorted(grids.items()), start=1):
+        axes[0, column].pcolormesh(grid_x, grid_y, g["value"], cmap="viridis", vmin=0, vmax=top, rasterized=True)
+        error = g["value"] - reference
+        axes[1, column].pcolormesh(grid_x, grid_y, error / top, cmap="RdBu", vmin=-0.1, vmax=0.1, rasterized=True)
+        axes[0, column].set_title(f"m' = {modes:,}")
+        axes[1, column].set_title(f"rms {100 * np.sqrt((error**2).mean()) / top:.2g}% of the top", fontsize=8)
+    for axis in axes.flat:
+        axis.set_aspect("equal")
+        axis.grid(False)
+    maker.save(figure, "gap_residual.png")
+
+
+def query_time(maker):
+    """Time of one query against the retained modes [SD, Fig. 9]."""
+    rows = maker.rows("gap_time", "gap_data", "time")
+    modes = [int(r["modes"]) for r in rows]
+    figure, axis = plt.subplots(figsize=(5, 3.4))
+    axis.loglog(modes, [float(r["microseconds"]) for r in rows], color=INK, marker="o", ms=3, label="value and 6D gradient")
+    axis.loglog(modes, [float(r["value_only_microseconds"]) for r in rows], color=LIGHT, marker="s", ms=3, label="value and remainder")
+    axis.axhline(1000, color=ACCENT, lw=1, ls="--")
+    axis.text(modes[0], 1100, "1 ms: haptic rate", color=ACCENT, fontsize=8)
+    axis.plot(4096, 1000, color=ACCENT, marker="*", ms=9, ls="none", label="paper: value alone, one CPU core")
+    axis.set_xlabel("retained modes m'")
+    axis.set_ylabel("microseconds, one core")
+    axis.legend(frameon=False, fontsize=8)
+    maker.save(figure, "gap_query_time.png")
+
+
+FIGURES = {"hausdorff": hausdorff, "se2": se2, "convergence": convergence, "residual": residual, "query_time": query_time}
 
 
 def main():

@@ -30,22 +30,6 @@ constexpr std::array<std::string_view, 4> kPeptideBackbone{"N", "CA", "C", "O"};
 constexpr std::array<std::string_view, 12> kNucleicBackbone{
     "P", "OP1", "OP2", "O5'", "C5'", "C4'", "O4'", "C3'", "O3'", "C2'", "O2'", "C1'"};
 
-// PDB format 3 names: primes for asterisks, OP1 for O1P.
-std::string canonical_atom_name(std::string name) {
-  std::replace(name.begin(), name.end(), '*', '\'');
-  if (name == "O1P") return "OP1";
-  if (name == "O2P") return "OP2";
-  return name;
-}
-
-bool is_hydrogen(const Atom& atom) {
-  if (!atom.element.empty()) return atom.element == "H" || atom.element == "D";
-  const auto first = std::find_if(atom.name.begin(), atom.name.end(), [](unsigned char c) {
-    return std::isdigit(c) == 0;  // "1HB"
-  });
-  return first != atom.name.end() && (*first == 'H' || *first == 'D');
-}
-
 const Atom* find_atom(const Molecule& molecule, const ResidueRange& range, std::string_view name) {
   for (std::size_t i = range.first; i < range.last; ++i)
     if (canonical_atom_name(molecule.atoms[i].name) == name) return &molecule.atoms[i];
@@ -73,6 +57,21 @@ bool joined(const Molecule& molecule, const ResidueRange& first, const ResidueRa
 }
 
 }  // namespace
+
+std::string canonical_atom_name(std::string name) {
+  std::replace(name.begin(), name.end(), '*', '\'');
+  if (name == "O1P") return "OP1";
+  if (name == "O2P") return "OP2";
+  return name;
+}
+
+bool is_hydrogen(const Atom& atom) {
+  if (!atom.element.empty()) return atom.element == "H" || atom.element == "D";
+  const auto first = std::find_if(atom.name.begin(), atom.name.end(), [](unsigned char c) {
+    return std::isdigit(c) == 0;  // "1HB"
+  });
+  return first != atom.name.end() && (*first == 'H' || *first == 'D');
+}
 
 std::string parent_residue_name(const std::string& name) {
   for (const auto& [modified, parent] : kParents)

@@ -37,4 +37,10 @@ struct PolymerResidue {
 // none.
 [[nodiscard]] std::string parent_residue_name(const std::string& name);
 
+// PDB format 3 names: primes for asterisks, OP1 for O1P.
+[[nodiscard]] std::string canonical_atom_name(std::string name);
+
+// Hydrogen or deuterium, by element, else by name.
+[[nodiscard]] bool is_hydrogen(const Atom& atom);
+
 }  // namespace mortise::detail

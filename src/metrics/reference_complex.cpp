@@ -16,8 +16,8 @@
 #include <string>
 #include <utility>
 
-#include "metrics/paired_moments.hpp"
-#include "metrics/point_grid.hpp"
+#include "core/paired_moments.hpp"
+#include "core/point_grid.hpp"
 #include "metrics/polymer.hpp"
 #include "metrics/residue_contacts.hpp"
 #include "mortise/core/errors.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "metrics/point_grid.hpp"
+#include "core/point_grid.hpp"
 
 namespace mortise::detail {
 

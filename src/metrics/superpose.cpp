@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "metrics/paired_moments.hpp"
+#include "core/paired_moments.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {

@@ -10,24 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "molecules/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/molecules/radii.hpp"
 
 namespace mortise {
 namespace {
-
-/// Nearly even unit vectors: equal steps in z, the golden angle in longitude.
-Eigen::Matrix3Xd fibonacci_sphere(int count) {
-  Eigen::Matrix3Xd points(3, count);
-  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double ring = std::sqrt(1.0 - z * z);
-    points.col(i) << ring * std::cos(golden_angle * i), ring * std::sin(golden_angle * i), z;
-  }
-  return points;
-}
 
 /// Balls sorted by cubic cell; only occupied cells take memory, so far outliers cost nothing.
 class CellList {
@@ -114,21 +103,18 @@ void check(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
                      std::to_string(options.points_per_atom));
 }
 
-}  // namespace
-
-Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
-                                 const SurfaceOptions& options) {
-  check(centres, radii, options);
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(radii.size());
-  if (radii.size() == 0) return areas;
-  const Eigen::VectorXd grown = radii.array() + options.probe_radius;
-  if (grown.maxCoeff() == 0.0) return areas;
-  const Eigen::Matrix3Xd points = fibonacci_sphere(options.points_per_atom);
+/// Calls visit(ball, directions) for each ball with points that no other ball hides, from any
+/// thread; `directions` are their columns of `points`, rising.
+template <typename Visit>
+void for_each_exposed(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& grown,
+                      const Eigen::Matrix3Xd& points, int threads, const Visit& visit) {
   const CellList cells(centres, 2.0 * grown.maxCoeff());
 
-  const auto area_of = [&](int i, const std::vector<int>& around, std::vector<Cap>& caps) {
+  const auto find_exposed = [&](int i, const std::vector<int>& around, std::vector<Cap>& caps,
+                                std::vector<Eigen::Index>& exposed) {
     const double radius = grown[i];
     caps.clear();
+    exposed.clear();
     for (const int j : around) {
       if (j == i) continue;
       const Eigen::Vector3d d = centres.col(j) - centres.col(i);
@@ -139,14 +125,13 @@ Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::V
       const double distance = std::sqrt(d_sq);
       if (distance == 0.0 ? grown[j] > radius || (grown[j] == radius && j < i)
                           : threshold <= -distance)
-        return 0.0;  // i lies within j; of identical balls the first keeps the surface
+        return;  // i lies within j; of identical balls the first keeps the surface
       if (threshold >= distance || distance == 0.0) continue;  // j lies within i and hides nothing
       caps.push_back({d, threshold, threshold / distance});
     }
     // The widest caps first: most hidden points are then found at the first test or two.
     std::sort(caps.begin(), caps.end(),
               [](const Cap& a, const Cap& b) { return a.depth < b.depth; });
-    int exposed = 0;
     std::size_t last =
         0;  // points follow each other round the ball, so the last cap often hides the next one too
     for (Eigen::Index p = 0; p < points.cols(); ++p) {
@@ -154,30 +139,76 @@ Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::V
       const auto hides = [&](const Cap& cap) { return u.dot(cap.towards) > cap.threshold; };
       if (last < caps.size() && hides(caps[last])) continue;
       last = static_cast<std::size_t>(std::find_if(caps.begin(), caps.end(), hides) - caps.begin());
-      exposed += last == caps.size();
+      if (last == caps.size()) exposed.push_back(p);
     }
-    return 4.0 * std::numbers::pi * radius * radius * exposed / options.points_per_atom;
   };
 
   constexpr std::size_t kCellsPerTask = 32;
   const std::size_t tasks = (cells.cells() + kCellsPerTask - 1) / kCellsPerTask;
-  parallel_for(tasks, options.threads, [&](std::size_t task, int) {
+  parallel_for(tasks, threads, [&](std::size_t task, int) {
     std::vector<int> around;
     std::vector<Cap> caps;
+    std::vector<Eigen::Index> exposed;
     const std::size_t end = std::min(cells.cells(), (task + 1) * kCellsPerTask);
     for (std::size_t cell = task * kCellsPerTask; cell < end; ++cell) {
       around.clear();
       cells.for_each_around(cell, [&](int j) { around.push_back(j); });
       cells.for_each_in(cell, [&](int i) {
-        if (grown[i] > 0.0) areas[i] = area_of(i, around, caps);
+        if (!(grown[i] > 0.0)) return;
+        find_exposed(i, around, caps, exposed);
+        if (!exposed.empty()) visit(i, exposed);
       });
     }
   });
+}
+
+double area_of(double radius, std::size_t points, const SurfaceOptions& options) {
+  return 4.0 * std::numbers::pi * radius * radius * static_cast<double>(points) /
+         options.points_per_atom;
+}
+
+}  // namespace
+
+Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
+                                 const SurfaceOptions& options) {
+  check(centres, radii, options);
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(radii.size());
+  if (radii.size() == 0) return areas;
+  const Eigen::VectorXd grown = radii.array() + options.probe_radius;
+  for_each_exposed(centres, grown, molecules::fibonacci_sphere(options.points_per_atom),
+                   options.threads, [&](int i, const std::vector<Eigen::Index>& exposed) {
+                     areas[i] = area_of(grown[i], exposed.size(), options);
+                   });
   return areas;
 }
 
 Eigen::VectorXd accessible_areas(const Molecule& molecule, const SurfaceOptions& options) {
   return accessible_areas(atom_positions(molecule), atom_radii(molecule), options);
+}
+
+AccessiblePoints accessible_points(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
+                                   const SurfaceOptions& options) {
+  check(centres, radii, options);
+  AccessiblePoints out;
+  out.areas = Eigen::VectorXd::Zero(radii.size());
+  out.first.assign(static_cast<std::size_t>(radii.size()) + 1, 0);
+  if (radii.size() == 0) return out;
+  const Eigen::VectorXd grown = radii.array() + options.probe_radius;
+  const Eigen::Matrix3Xd points = molecules::fibonacci_sphere(options.points_per_atom);
+  std::vector<std::vector<Eigen::Index>> directions(static_cast<std::size_t>(radii.size()));
+  for_each_exposed(
+      centres, grown, points, options.threads,
+      [&](int i, const std::vector<Eigen::Index>& exposed) { directions[i] = exposed; });
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    out.first[i + 1] = out.first[i] + static_cast<Eigen::Index>(directions[i].size());
+  out.positions.resize(3, out.first.back());
+  Eigen::Index column = 0;
+  for (Eigen::Index i = 0; i < radii.size(); ++i) {
+    out.areas[i] = area_of(grown[i], 1, options);
+    for (const Eigen::Index p : directions[i])
+      out.positions.col(column++) = centres.col(i) + grown[i] * points.col(p);
+  }
+  return out;
 }
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include "parts/build_triangle_tree.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -126,21 +127,37 @@ class Builder {
 
   static void leave_empty(TreeNode& node, int p) {
     for (int d = 0; d < 3; ++d) {
-      node.low[d][p] = node.high[d][p] = 1e200;  // its square is infinite
-      node.centre[d][p] = node.centre[d][0];     // of no moments, so anywhere finite will do
+      node.half[d][p] = -1e200;               // the square of what is beyond it is infinite
+      node.centre[d][p] = node.centre[d][0];  // of no moments, so anywhere finite will do
     }
     node.radius[p] = node.radius[0];
     node.child[p] = -1;
   }
 
-  void describe(TreeNode& node, int p, Range range) const {
+  // A box along the principal axes: flat where the surface is, so that of the many boxes about as
+  // far as the nearest triangle few need to be opened.
+  void lay_box(TreeNode& node, int p, Range range, const Eigen::Matrix3d& covariance) const {
+    const Eigen::Matrix3d axes =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+    const Vector3d origin = items_[range.begin].middle;
     Eigen::AlignedBox3d box;
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      for (int k = 0; k < 3; ++k)
+        box.extend(axes.transpose() * (corner(items_[i].triangle, k) - origin));
+    const Vector3d middle = origin + axes * box.center();
+    for (int d = 0; d < 3; ++d) {
+      node.middle[d][p] = middle[d];
+      node.half[d][p] = 0.5 * box.sizes()[d];
+      for (int a = 0; a < 3; ++a) node.axis[a][d][p] = axes(d, a);
+    }
+  }
+
+  void describe(TreeNode& node, int p, Range range) const {
     Vector3d weighted = Vector3d::Zero(), plain = Vector3d::Zero();
     double area = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int t = items_[i].triangle;
       const Vector3d a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-      box.extend(a).extend(b).extend(c);
       const double share = (b - a).cross(c - a).norm();
       area += share;
       weighted += share * (items_[i].middle - items_[range.begin].middle);
@@ -151,6 +168,7 @@ class Builder {
                                 : Vector3d(plain / static_cast<double>(range.size()));
     const Vector3d centre = items_[range.begin].middle + offset;
     Eigen::Matrix<double, kTreeMoments, 1> sum = Eigen::Matrix<double, kTreeMoments, 1>::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     double radius_sq = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int t = items_[i].triangle;
@@ -162,6 +180,7 @@ class Builder {
       const Eigen::Matrix3d S =
           (a * a.transpose() + b * b.transpose() + c * c.transpose() + 9.0 * s * s.transpose()) /
           24.0;
+      if (area > std::numeric_limits<double>::min()) covariance += 4.0 / area * n.norm() * S;
       Eigen::Matrix<double, kTreeMoments, 1> m;
       m << n, s[0] * n[0], s[1] * n[1], s[2] * n[2], s[0] * n[1] + s[1] * n[0],
           s[0] * n[2] + s[2] * n[0], s[1] * n[2] + s[2] * n[1],  //
@@ -172,12 +191,13 @@ class Builder {
           2 * (S(0, 1) * n[2] + S(0, 2) * n[1] + S(1, 2) * n[0]);
       sum += m;
     }
-    for (int d = 0; d < 3; ++d) {
-      node.low[d][p] = box.min()[d];
-      node.high[d][p] = box.max()[d];
-      node.centre[d][p] = centre[d];
-    }
+    for (int d = 0; d < 3; ++d) node.centre[d][p] = centre[d];
+    lay_box(node, p, range, covariance);
     node.radius[p] = std::sqrt(radius_sq);
+    const Eigen::Matrix3d& C = covariance;
+    Eigen::Matrix<double, 6, 1> spread;
+    spread << C(0, 0), C(1, 1), C(2, 2), 2 * C(0, 1), 2 * C(0, 2), 2 * C(1, 2);
+    for (int k = 0; k < 6; ++k) node.spread[k][p] = spread[k];
     for (int m = 0; m < kTreeMoments; ++m) node.moments[m][p] = sum[m];
   }
 

@@ -19,7 +19,7 @@ struct TriangleTree {
 };
 
 /// The tree of a mesh of at least one triangle, all indices valid. Time O(T log T), memory about
-/// 150 bytes per triangle.
+/// 200 bytes per triangle.
 [[nodiscard]] TriangleTree build_triangle_tree(const TriangleMesh& mesh);
 
 }  // namespace mortise

@@ -2,6 +2,7 @@
 // STL and PLY bytes by hand, STEP bytes by the STEP module.
 #include "mortise/parts/format_part.hpp"
 
+#include <Eigen/Geometry>
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -22,7 +22,19 @@ enum class MeshFormat { kStlAscii, kStlBinary, kObj, kPly, kOff, kStep };
 [[nodiscard]] TriangleMesh read_stl_ascii(const std::string& path, std::string_view bytes);
 [[nodiscard]] TriangleMesh read_stl_binary(const std::string& path, std::string_view bytes,
                                            std::vector<std::string>& notes);
-[[nodiscard]] TriangleMesh read_polygons(const std::string& path, std::string_view bytes,
-                                         MeshFormat format, std::vector<std::string>& notes);
+
+/// Faces of three or more corners that share their points.
+struct PolygonSoup {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::vector<std::size_t>> polygons;
+};
+
+[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
+
+/// @throws FileError if there is no face, an index is out of range or a point in use is not finite
+[[nodiscard]] TriangleMesh triangulate(const std::string& path, const PolygonSoup& soup,
+                                       std::vector<std::string>& notes);
 
 }  // namespace mortise::parts

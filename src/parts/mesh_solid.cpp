@@ -2,6 +2,7 @@
 // Questions to a mesh's triangle tree, in chunks of points.
 #include "mortise/parts/mesh_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OBJ, PLY and OFF files by CGAL, polygons cut into triangles.
+// OBJ files by CGAL; polygons of any format cut into triangles.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
-#include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/stream.hpp>
@@ -22,7 +21,8 @@ using Points = std::vector<Kernel::Point_3>;
 using Polygon = std::vector<std::size_t>;
 
 /// Triangles of a polygon: as the surface of least area through its corners, by CGAL.
-void cut_up(const Points& points, const Polygon& polygon, std::vector<Eigen::Vector3i>& triangles) {
+void cut_up(const std::vector<Eigen::Vector3d>& points, const Polygon& polygon,
+            std::vector<Eigen::Vector3i>& triangles) {
   const auto corner = [&](int i) { return static_cast<int>(polygon[static_cast<std::size_t>(i)]); };
   if (polygon.size() == 3) {
     triangles.emplace_back(corner(0), corner(1), corner(2));
@@ -32,7 +32,8 @@ void cut_up(const Points& points, const Polygon& polygon, std::vector<Eigen::Vec
   std::vector<CGAL::Triple<int, int, int>> patch;
   if (polygon.size() <= kMostCorners) {
     Points outline;
-    for (const std::size_t v : polygon) outline.push_back(points[v]);
+    for (const std::size_t v : polygon)
+      outline.emplace_back(points[v].x(), points[v].y(), points[v].z());
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(outline, std::back_inserter(patch));
   }
   for (const auto& t : patch) {
@@ -45,36 +46,35 @@ void cut_up(const Points& points, const Polygon& polygon, std::vector<Eigen::Vec
     triangles.emplace_back(corner(0), corner(i), corner(i + 1));
 }
 
-const char* name_of(MeshFormat format) {
-  if (format == MeshFormat::kObj) return "an OBJ";
-  return format == MeshFormat::kPly ? "a PLY" : "an OFF";
-}
-
 }  // namespace
 
-TriangleMesh read_polygons(const std::string& path, std::string_view bytes, MeshFormat format,
-                           std::vector<std::string>& notes) {
+PolygonSoup read_obj(const std::string& path, std::string_view bytes) {
   namespace io = boost::iostreams;
   Points points;
-  std::vector<Polygon> polygons;
+  PolygonSoup soup;
   bool good = false;
-  const std::string expected = std::string("expected ") + name_of(format) + " file, ";
   try {
     io::stream<io::array_source> in(bytes.data(), bytes.size());
-    if (format == MeshFormat::kObj) good = CGAL::IO::read_OBJ(in, points, polygons);
-    if (format == MeshFormat::kPly) good = CGAL::IO::read_PLY(in, points, polygons);
-    if (format == MeshFormat::kOff) good = CGAL::IO::read_OFF(in, points, polygons);
+    good = CGAL::IO::read_OBJ(in, points, soup.polygons);
   } catch (const std::exception& e) {
-    throw FileError(path, expected + "found it malformed: " + e.what());
+    throw FileError(path, std::string("expected an OBJ file, found it malformed: ") + e.what());
   }
-  if (!good) throw FileError(path, expected + "found it malformed or cut off");
-  if (polygons.empty()) throw FileError(path, expected + "found no faces in it");
+  if (!good) throw FileError(path, "expected an OBJ file, found it malformed");
+  for (const auto& p : points) soup.points.emplace_back(p.x(), p.y(), p.z());
+  return soup;
+}
+
+TriangleMesh triangulate(const std::string& path, const PolygonSoup& soup,
+                         std::vector<std::string>& notes) {
+  const auto& polygons = soup.polygons;
+  const auto& points = soup.points;
+  if (polygons.empty()) throw FileError(path, "expected faces, found none");
   constexpr std::size_t kMost = std::numeric_limits<int>::max() / 3;
   if (points.size() > kMost || polygons.size() > kMost) throw FileError(path, "too many triangles");
   TriangleMesh mesh;
   mesh.vertices.resize(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
-    mesh.vertices.col(static_cast<Eigen::Index>(i)) << points[i].x(), points[i].y(), points[i].z();
+    mesh.vertices.col(static_cast<Eigen::Index>(i)) = points[i];
   std::vector<Eigen::Vector3i> triangles;
   triangles.reserve(polygons.size());
   long larger = 0;

@@ -30,10 +30,9 @@ ReadPartResult read_part(const std::string& path, const ReadPartOptions& options
   check(options);
   ReadPartResult result;
   TriangleMesh soup;
-  RepairOptions repair = options.repair;
   {
     const std::string bytes = parts::read_bytes(path);
-    switch (const auto format = parts::detect_format(path, bytes)) {
+    switch (parts::detect_format(path, bytes)) {
       case parts::MeshFormat::kStlAscii:
         soup = parts::read_stl_ascii(path, bytes);
         break;
@@ -41,9 +40,13 @@ ReadPartResult read_part(const std::string& path, const ReadPartOptions& options
         soup = parts::read_stl_binary(path, bytes, result.decisions);
         break;
       case parts::MeshFormat::kObj:
+        soup = parts::triangulate(path, parts::read_obj(path, bytes), result.decisions);
+        break;
       case parts::MeshFormat::kPly:
+        soup = parts::triangulate(path, parts::read_ply(path, bytes), result.decisions);
+        break;
       case parts::MeshFormat::kOff:
-        soup = parts::read_polygons(path, bytes, format, result.decisions);
+        soup = parts::triangulate(path, parts::read_off(path, bytes), result.decisions);
         break;
       case parts::MeshFormat::kStep: {
         const bool relative = options.absolute_deviation == 0.0;
@@ -58,7 +61,7 @@ ReadPartResult read_part(const std::string& path, const ReadPartOptions& options
     }
   }
   try {
-    RepairResult repaired = repair_mesh(soup, repair);
+    RepairResult repaired = repair_mesh(soup, options.repair);
     result.mesh = std::move(repaired.mesh);
     result.closed = repaired.closed;
     result.volume = repaired.volume;

@@ -6,6 +6,7 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace mortise::parts {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // STL files. CGAL's reader puts every corner into a tree of points, which no NaN survives and which
 // takes longer than all repairs together; these leave merging to repair_mesh.
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -9,6 +8,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "parts/mesh_files.hpp"
+#include "parts/words.hpp"
 
 namespace mortise::parts {
 namespace {
@@ -26,31 +26,6 @@ TriangleMesh soup_of(const std::vector<Eigen::Vector3d>& corners) {
 }
 
 constexpr std::size_t kMostTriangles = std::numeric_limits<int>::max() / 3;
-
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-
-  /// The next word, empty at the end; line() is then its line.
-  std::string_view next() {
-    while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) <= ' ') {
-      line_ += text_[at_] == '\n';
-      ++at_;
-    }
-    const std::size_t first = at_;
-    while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) > ' ') ++at_;
-    return text_.substr(first, at_ - first);
-  }
-  void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-  }
-  [[nodiscard]] long line() const { return line_; }
-
- private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-  long line_ = 1;
-};
 
 bool is_word(std::string_view found, std::string_view lower) {
   if (found.size() != lower.size()) return false;
@@ -79,12 +54,7 @@ TriangleMesh read_stl_ascii(const std::string& path, std::string_view bytes) {
       Eigen::Vector3d p;
       for (int i = 0; i < 3; ++i) {
         const std::string_view number = words.next();
-        const char* first = number.data() + (!number.empty() && number[0] == '+' ? 1 : 0);
-        const char* last = number.data() + number.size();
-        const auto [end, error] = std::from_chars(first, last, p(i));
-        if (error == std::errc::result_out_of_range) p(i) = 0.0;  // written below 1e-308
-        if (number.empty() || end != last || error == std::errc::invalid_argument)
-          fail("a coordinate", number);
+        if (!parse_number(number, p(i))) fail("a coordinate", number);
         if (!std::isfinite(p(i))) fail("a finite coordinate", number);
       }
       corners.push_back(p);

@@ -72,11 +72,13 @@ void search(const TreeView& tree, const double* point, Best& best) {
     double distances[kTreeWidth];
     unsigned near = 0;
     for (int l = 0; l < kTreeWidth; l += kLanes) {
+      const Lanes3 q = {all(point[0]), all(point[1]), all(point[2])};
+      const Lanes3 r = minus(q, load3(node.middle, l));
       Lanes d = {};
       for (int axis = 0; axis < 3; ++axis) {
-        const Lanes q = all(point[axis]);
+        const Lanes along = dot(r, load3(node.axis[axis], l));
         const Lanes gap =
-            larger(larger(load(node.low[axis] + l) - q, q - load(node.high[axis] + l)), all(0.0));
+            larger((along < 0.0 ? -along : along) - load(node.half[axis] + l), all(0.0));
         d += gap * gap;
       }
       store(distances + l, d);

@@ -35,10 +35,15 @@ struct alignas(64) TrianglePacket {
 ///           xyz
 /// They give Int (x - q).n psi(|x - q|) dA for any smooth psi to second order (docs/math.md).
 struct alignas(64) TreeNode {
-  double low[3][kTreeWidth];  ///< boxes; at infinity where there is no child
-  double high[3][kTreeWidth];
+  double middle[3][kTreeWidth];   ///< of a box along the child's own principal axes
+  double axis[3][3][kTreeWidth];  ///< the three axes, unit
+  double half[3]
+             [kTreeWidth];  ///< half sides; such that it is infinitely far where there is no child
   double centre[3][kTreeWidth];  ///< centroid of the child's surface
   double radius[kTreeWidth];     ///< of a ball about it that holds the child's triangles
+  /// Covariance of the child's surface as a quadratic form by r_x^2, r_y^2, r_z^2, r_x r_y, r_x
+  /// r_z, r_y r_z: how far it spreads along r.
+  double spread[6][kTreeWidth];
   double moments[kTreeMoments][kTreeWidth];
   int child[kTreeWidth];  ///< a node if >= 0, else packet -1 - child
   int count;              ///< children there are, the first ones

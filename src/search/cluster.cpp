@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Greedy clustering of ranked poses.
+// Greedy clustering of ranked poses by ligand RMSD.
 #include "mortise/search/cluster.hpp"
 
 #include <algorithm>
@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/core/pose_distance.hpp"
+#include "search/cluster_sizes.hpp"
 
 namespace mortise {
 namespace {
@@ -63,13 +65,12 @@ class FounderCells {
 
 Clusters cluster_poses(const std::vector<RigidMotion>& poses, const Eigen::Matrix3Xd& points,
                        const ClusterOptions& options) {
-  if (!(options.radius >= 0.0))
-    throw InputError("cluster: radius must be >= 0, got " + std::to_string(options.radius));
+  detail::check_cluster_options(options.radius, options.min_size);
   const PoseDistance distance(points);
   const double radius_sq = options.radius * options.radius;
   // Cells may be larger than the radius; a lower bound keeps their numbers in range.
   FounderCells cells(std::max(options.radius, 1e-3));
-  Clusters result{std::vector<int>(poses.size(), -1), {}};
+  Clusters result{std::vector<int>(poses.size(), -1), {}, {}};
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector3d centre = poses[i] * distance.centroid();
     if (!centre.allFinite())
@@ -87,7 +88,7 @@ Clusters cluster_poses(const std::vector<RigidMotion>& poses, const Eigen::Matri
     }
     result.cluster_of[i] = cluster;
   }
-  return result;
+  return detail::counted(std::move(result), options.min_size);
 }
 
 }  // namespace mortise

@@ -14,7 +14,9 @@
 #include "mortise/molecules/to_knots.hpp"
 #include "mortise/search/cluster.hpp"
 #include "mortise/search/contact_potential.hpp"
+#include "mortise/search/polish.hpp"
 #include "mortise/search/score_maps.hpp"
+#include "mortise/search/shape_kernel.hpp"
 
 namespace mortise {
 namespace {
@@ -71,6 +73,7 @@ std::string to_json(const DockOptions& o) {
       {"propensity", o.propensity},
       {"rescore", o.rescore},
       {"potential", o.potential},
+      {"polish", o.polish},
       {"poses", o.poses},
       {"cluster_radius", o.cluster_radius},
   };
@@ -84,8 +87,64 @@ struct Docking::Impl {
   std::unique_ptr<RotationSearch> search;
   ContactPotential potential;
   TypedPoints moving_points;
-  std::optional<ScoreMaps> maps;  // with options.rescore
+  std::optional<ScoreMaps> maps;       // with options.rescore or options.polish
+  std::optional<PlacedPoints> placed;  // with options.polish
+
+  void make_maps(const Molecule& fixed, const Channel& shape);
+  void polish(std::vector<Pose>& poses) const;
+  [[nodiscard]] PoseList best_of_clusters(const PoseList& all, std::size_t count) const;
 };
+
+void Docking::Impl::make_maps(const Molecule& fixed, const Channel& shape) {
+  TypedPoints points{atom_positions(fixed), contact_types(fixed)};
+  if (!options.rescore) {  // maps of the shape alone
+    points.types.setConstant(-1);
+    moving_points.types.setConstant(-1);
+    potential = {1.0, Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0)};
+  }
+  const ScoreMapsOptions map_options{.threads = options.threads};
+  if (!options.polish) {
+    maps.emplace(points, potential, map_options);
+    return;
+  }
+  const RadialKernel kernel =
+      shape_kernel(shape, options.radius, options.radius, {.cutoff = options.search.cutoff});
+  // The channel's weights are i w, so that a pair counts -w w'.
+  maps.emplace(points, potential, fixed_knots.points.topRows<3>(),
+               -potential.shape * fixed_knots.weights.real(), kernel, map_options);
+  placed.emplace(moving_points, moving_knots.points.topRows<3>(), moving_knots.weights.real());
+}
+
+// Moves the poses and leaves them the scores by which they were found: ranking by the score at the
+// end favours the wrong poses that had most to gain (docs/ranking.md).
+void Docking::Impl::polish(std::vector<Pose>& poses) const {
+  std::vector<RigidMotion> starts;
+  starts.reserve(poses.size());
+  for (const Pose& pose : poses) starts.push_back(pose.moving_in_fixed);
+  const std::vector<PolishedPose> polished =
+      polish_poses([&](const RigidMotion& m) { return maps->smooth_score(*placed, m); },
+                   {placed->centre, placed->gyration}, starts, {.threads = options.threads});
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    poses[i].moving_in_fixed = polished[i].moving_in_fixed;
+}
+
+// Ranks the poses and keeps the best of each cluster, `count` at most.
+PoseList Docking::Impl::best_of_clusters(const PoseList& all, std::size_t count) const {
+  const std::vector<std::size_t> order =
+      ranking(all.poses.size(), [&](std::size_t i) { return all.poses[i].score; });
+  std::vector<RigidMotion> motions;
+  motions.reserve(order.size());
+  for (const std::size_t i : order) motions.push_back(all.poses[i].moving_in_fixed);
+  const Clusters clusters =
+      cluster_poses(motions, moving_knots.points.topRows<3>(),
+                    {.radius = options.cluster_radius, .max_clusters = count});
+  PoseList best{all.channel_names, {}};
+  for (const std::size_t f : clusters.founders) {
+    best.poses.push_back(all.poses[order[f]]);
+    best.poses.back().cluster = static_cast<int>(best.poses.size()) - 1;
+  }
+  return best;
+}
 
 Docking::Docking(const Molecule& fixed, const Molecule& moving, const DockOptions& options)
     : impl_(std::make_unique<Impl>()) {
@@ -98,17 +157,17 @@ Docking::Docking(const Molecule& fixed, const Molecule& moving, const DockOption
   impl_->rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
   SearchOptions search = options.search;
   search.threads = options.threads;
-  impl_->search = std::make_unique<RotationSearch>(
-      std::vector<Channel>{
-          double_skin_channel(impl_->fixed_knots, impl_->moving_knots, options.double_skin)},
-      impl_->rotations.quaternions, search);
-  if (!options.rescore) return;
-  impl_->potential = options.potential.empty()
-                         ? fitted_contact_potential()
-                         : read_contact_potential(options.potential, kContactTypes);
+  const Channel shape =
+      double_skin_channel(impl_->fixed_knots, impl_->moving_knots, options.double_skin);
+  impl_->search = std::make_unique<RotationSearch>(std::vector<Channel>{shape},
+                                                   impl_->rotations.quaternions, search);
+  if (!options.rescore && !options.polish) return;
+  if (options.rescore)
+    impl_->potential = options.potential.empty()
+                           ? fitted_contact_potential()
+                           : read_contact_potential(options.potential, kContactTypes);
   impl_->moving_points = {atom_positions(moving), contact_types(moving)};
-  impl_->maps.emplace(TypedPoints{atom_positions(fixed), contact_types(fixed)}, impl_->potential,
-                      ScoreMapsOptions{.threads = options.threads});
+  impl_->make_maps(fixed, shape);
 }
 
 Docking::~Docking() = default;
@@ -132,7 +191,8 @@ PoseList Docking::rank() const {
     pose.moving_in_fixed = run.search->moving_in_fixed(c);
     pose.rotation_index = c.rotation_index;
     pose.channels = {shape_factor * c.score};
-    if (run.maps) pose.channels.push_back(run.maps->score(run.moving_points, pose.moving_in_fixed));
+    if (run.options.rescore)
+      pose.channels.push_back(run.maps->score(run.moving_points, pose.moving_in_fixed));
     pose.score = std::accumulate(pose.channels.begin(), pose.channels.end(), 0.0);
   };
   // Pieces large enough that handing them out costs nothing.
@@ -142,21 +202,11 @@ PoseList Docking::rank() const {
                  const std::size_t end = std::min(candidates.size(), (piece + 1) * kPiece);
                  for (std::size_t i = piece * kPiece; i < end; ++i) score(i);
                });
-  const std::vector<std::size_t> order =
-      ranking(all.poses.size(), [&](std::size_t i) { return all.poses[i].score; });
-  std::vector<RigidMotion> motions;
-  motions.reserve(order.size());
-  for (const std::size_t i : order) motions.push_back(all.poses[i].moving_in_fixed);
-  const Clusters clusters =
-      cluster_poses(motions, run.moving_knots.points.topRows<3>(),
-                    {.radius = run.options.cluster_radius,
-                     .max_clusters = static_cast<std::size_t>(run.options.poses)});
-  PoseList best{all.channel_names, {}};
-  for (const std::size_t f : clusters.founders) {
-    best.poses.push_back(std::move(all.poses[order[f]]));
-    best.poses.back().cluster = static_cast<int>(best.poses.size()) - 1;
-  }
-  return best;
+  const auto count = static_cast<std::size_t>(run.options.poses);
+  if (!run.options.polish) return run.best_of_clusters(all, count);
+  PoseList best = run.best_of_clusters(all, count + count / 4);  // some will fall together
+  run.polish(best.poses);
+  return run.best_of_clusters(best, count);
 }
 
 }  // namespace mortise

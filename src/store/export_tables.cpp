@@ -41,7 +41,11 @@ ExportFormat parse_export_format(const std::string& name) {
   if (name == "csv") return ExportFormat::kCsv;
   if (name == "json") return ExportFormat::kJson;
   if (name == "zdock") return ExportFormat::kZdock;
-  throw InputError("format: expected pdb, cif, csv, json or zdock, got \"" + name + "\"");
+  if (name == "stl") return ExportFormat::kStl;
+  if (name == "ply") return ExportFormat::kPly;
+  if (name == "step") return ExportFormat::kStep;
+  throw InputError("format: expected pdb, cif, csv, json, zdock, stl, ply or step, got \"" + name +
+                   "\"");
 }
 
 std::vector<std::size_t> chosen_poses(const Run& run, ExportFormat format,
@@ -63,8 +67,11 @@ std::vector<std::size_t> chosen_poses(const Run& run, ExportFormat format,
     return {rank - 1};
   }
   const bool structures = format == ExportFormat::kPdb || format == ExportFormat::kMmcif;
+  const bool parts =
+      format == ExportFormat::kStl || format == ExportFormat::kPly || format == ExportFormat::kStep;
   const std::size_t wanted = options.top > 0 ? static_cast<std::size_t>(options.top)
                              : structures    ? kDefaultStructures
+                             : parts         ? 1
                                              : count;
   std::vector<std::size_t> chosen(std::min(wanted, count));
   for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = i;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise evaluate on poses whose worth is known beforehand.
+#include <algorithm>
+#include <cmath>
+
 #include "apps/program.hpp"
 #include "mortise/store/provenance.hpp"
 
@@ -84,6 +87,19 @@ TEST_F(Evaluate, PrintsATableAndMayRunAgain) {
   const std::string bytes = read_whole_file(path("run.h5"));
   EXPECT_EQ(must(std::string("evaluate run.h5 --threads 1") + kReferences).out, first.out);
   EXPECT_EQ(read_whole_file(path("run.h5")), bytes);
+}
+
+TEST_F(Evaluate, DescribesTheInterfacesOfTheBestPoses) {
+  std::reverse(run_.poses.poses.begin(), run_.poses.poses.end());
+  write_run(path("run.h5"), run_);
+  must(std::string("evaluate run.h5 --interface 2") + kReferences);
+  const mortise::Run run = read_run(path("run.h5"));
+  ASSERT_EQ(run.metrics.size(), 11U);
+  EXPECT_EQ(run.metrics[6].name, "buried_area");
+  EXPECT_GT(run.metrics[6].values[0], 500.0);
+  EXPECT_EQ(run.metrics[10].name, "sc");
+  EXPECT_GT(run.metrics[10].values[0], 0.5);
+  for (std::size_t m = 5; m < 11; ++m) EXPECT_TRUE(std::isnan(run.metrics[m].values[2]));
 }
 
 TEST_F(Evaluate, NamesEachFaultInOneLine) {

@@ -42,15 +42,15 @@ TEST(MinkowskiOfParts, IsWithinBothEpsilonsOfTheExactSum) {
   for (const TriangleMesh& second : {box, l_shape(0.4)}) {
     const MeshSolid exact(reference::minkowski_sum(l, second));
     ASSERT_TRUE(exact.closed());
-    const Decomposition a = decompose(MeshSolid(l), {.grid = 24});
-    const Decomposition b = decompose(MeshSolid(second), {.grid = 20});
+    const Decomposition a = decompose(MeshSolid(l), {.grid = 12});
+    const Decomposition b = decompose(MeshSolid(second), {.grid = 10});
     const Balls sum = minkowski_sum(a.knots.points, b.knots.points);
     const Balls few = without_contained(sum);
     EXPECT_LT(few.cols(), sum.cols());
     const double bound = a.epsilon + b.epsilon;
     const HausdorffDistance distance =
-        hausdorff_distance(few.cast<double>(), exact, surface_samples(exact.mesh(), 0.2 * bound),
-                           {.spacing = 0.2 * bound});
+        hausdorff_distance(few.cast<double>(), exact, surface_samples(exact.mesh(), 0.4 * bound),
+                           {.spacing = 0.4 * bound});
     EXPECT_LE(distance.of_solids(), bound * (1.0 + 1e-5));
     EXPECT_GE(distance.balls_beyond_solid, 0.9 * bound) << "grown balls at both boundaries add up";
   }

@@ -11,7 +11,7 @@ import re
 import sys
 import tempfile
 
-FOLDERS = ("apps", "bench", "cmake", "include", "scripts", "src", "tests")
+FOLDERS = ("apps", "bench", "cmake", "examples", "include", "scripts", "src", "tests")
 LICENCE = "SPDX-License-Identifier: GPL-3.0-or-later"
 SENTENCE = {  # a comment of at least two words, after "@file" if there is one
     ".cpp": re.compile(r"// \w+\W+\w"),

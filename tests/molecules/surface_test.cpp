@@ -126,6 +126,27 @@ TEST_F(SampleSurface, TurningThreadsAndOrderChangeLittleOrNothing) {
   EXPECT_NEAR(areas.sum(), accessible_areas(turn * x, radii).sum(), 0.01 * areas.sum());
 }
 
+TEST_F(SampleSurface, AccessiblePointsAreThoseTheAreasCount) {
+  const Eigen::Matrix3Xd x = atom_positions(molecule_);
+  const Eigen::VectorXd radii = atom_radii(molecule_);
+  const SurfaceOptions options{.probe_radius = 1.4, .points_per_atom = 100};
+  const AccessiblePoints points = accessible_points(x, radii, options);
+  const Eigen::VectorXd areas = accessible_areas(x, radii, options);
+  ASSERT_EQ(points.first.size(), static_cast<std::size_t>(radii.size()) + 1);
+  ASSERT_EQ(points.first.back(), points.positions.cols());
+  for (Eigen::Index i = 0; i < radii.size(); ++i) {
+    const Eigen::Index count = points.first[i + 1] - points.first[i];
+    EXPECT_NEAR(static_cast<double>(count) * points.areas[i], areas[i], 1e-9 * (1.0 + areas[i]));
+    for (Eigen::Index p = points.first[i]; p < points.first[i + 1]; ++p) {
+      const Eigen::VectorXd distances =
+          (x.colwise() - points.positions.col(p)).colwise().norm().transpose();
+      EXPECT_NEAR(distances[i], radii[i] + 1.4, 1e-9);
+      EXPECT_GT((distances - radii).minCoeff(), 1.4 - 1e-9);
+    }
+  }
+  EXPECT_EQ(accessible_points(Eigen::Matrix3Xd(3, 0), Eigen::VectorXd(0)).positions.cols(), 0);
+}
+
 TEST(AccessibleAreas, RefusesBadInput) {
   const Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, 2);
   const Eigen::Vector2d r(1, 1);

@@ -162,14 +162,18 @@ TEST(SampleParts, EveryFileIsClosedAndTheStepFileIsTheSameSolid) {
     stems.insert(pair.at("moving").get<std::string>());
   }
   EXPECT_GE(stems.size(), 40U);
+  ReadPartOptions quick;
+  quick.deviation = 2e-3;
+  quick.angle = 1.0;
+  quick.repair.find_self_intersections = false;
   for (const std::string& stem : stems) {
     const ReadPartResult& stl = part(stem).file;
     EXPECT_TRUE(stl.closed) << stem;
     EXPECT_TRUE(stl.decisions.empty()) << stem << ": " << stl.decisions.front();
-    const ReadPartResult step = read_part(kFolder + stem + ".step", {.deviation = 1e-3});
+    const ReadPartResult step = read_part(kFolder + stem + ".step", quick);
     EXPECT_TRUE(step.closed) << stem;
     EXPECT_EQ(step.unit, "mm") << stem;
-    EXPECT_NEAR(step.volume / stl.volume, 1.0, 0.01) << stem;
+    EXPECT_NEAR(step.volume / stl.volume, 1.0, 0.02) << stem;
     EXPECT_LT(
         (step.mesh.vertices.rowwise().maxCoeff() - stl.mesh.vertices.rowwise().maxCoeff()).norm(),
         4e-3 * part(stem).diameter)
@@ -192,7 +196,7 @@ TEST(SampleParts, FitWithoutPenetrationAtEveryRecordedPose) {
       const RigidMotion pose =
           i == 0 ? pose_of(pair) : compose(any_member(pair["symmetries"], i), pose_of(pair));
       const Fit fit = fit_of(fixed, moving, pose, touch);
-      EXPECT_LT(fit.depth, 0.12) << name << " member " << i;
+      EXPECT_LT(fit.depth, name.starts_with("thread") ? 0.12 : 0.04) << name << " member " << i;
       // A gear touches along one line per tooth pair; everything else over a good part of it.
       EXPECT_GT(fit.contact, name.starts_with("spur") ? 0.007 : 0.08) << name << " member " << i;
     }

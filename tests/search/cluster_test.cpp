@@ -20,7 +20,7 @@ using namespace sample_bodies;
 // Each pose against each founder in turn, with the distance summed over all points.
 Clusters brute_force(const std::vector<RigidMotion>& poses, const Eigen::Matrix3Xd& points,
                      const ClusterOptions& options) {
-  Clusters result{std::vector<int>(poses.size(), -1), {}};
+  Clusters result{std::vector<int>(poses.size(), -1), {}, {}};
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (std::size_t c = 0; c < result.founders.size() && result.cluster_of[i] < 0; ++c) {
       const double mean_square =
@@ -60,7 +60,7 @@ TEST(ClusterPoses, EqualsTheGreedyWalk) {
     for (const double radius : {0.3, 3.0, 8.0, 100.0})
       for (const std::size_t most : {std::size_t{0}, std::size_t{1}, std::size_t{7}}) {
         const std::vector<RigidMotion> poses = random_poses(random, count, 3.0);
-        const ClusterOptions options{radius, most};
+        const ClusterOptions options{radius, most, 1};
         const Clusters fast = cluster_poses(poses, points, options);
         const Clusters slow = brute_force(poses, points, options);
         EXPECT_EQ(fast.cluster_of, slow.cluster_of) << count << ' ' << radius << ' ' << most;

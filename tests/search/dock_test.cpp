@@ -51,7 +51,9 @@ DockOptions quick() {
 
 TEST(Docking, RanksByTheSumOfItsChannelsAndKeepsClustersApart) {
   const Molecule fixed = blob(300, 1), moving = blob(150, 2);
-  Docking docking(fixed, moving, quick());
+  DockOptions options = quick();
+  options.polish = false;  // which leaves the channels as they were found
+  Docking docking(fixed, moving, options);
   ASSERT_TRUE(docking.search().run());
   const PoseList list = docking.rank();
   EXPECT_EQ(list.channel_names, (std::vector<std::string>{"shape", "contact"}));
@@ -81,6 +83,7 @@ TEST(Docking, RanksByTheSumOfItsChannelsAndKeepsClustersApart) {
 TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   DockOptions options = quick();
   options.rescore = false;
+  options.polish = false;
   options.cluster_radius = 0.0;
   Docking docking(blob(200, 3), blob(100, 4), options);
   ASSERT_TRUE(docking.search().run());
@@ -90,6 +93,35 @@ TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   for (const Candidate& c : docking.search().candidates()) best = std::max(best, c.score);
   EXPECT_EQ(list.poses.at(0).score, best);
   EXPECT_EQ(list.poses.size(), 60U);
+}
+
+TEST(Docking, PolishMovesPosesUphillMergesSomeAndKeepsTheirScores) {
+  const Molecule fixed = blob(300, 1), moving = blob(150, 2);
+  const PoseDistance distance(atom_positions(moving));
+  for (const bool rescore : {true, false}) {
+    DockOptions options = quick();
+    options.rescore = rescore;
+    options.poses = 200;  // more than there are
+    Docking polished(fixed, moving, options);
+    options.polish = false;
+    Docking plain(fixed, moving, options);
+    ASSERT_TRUE(plain.search().run());
+    ASSERT_TRUE(polished.search().run());
+    const PoseList after = polished.rank(), before = plain.rank();
+    EXPECT_EQ(after.channel_names, before.channel_names);
+    EXPECT_LT(after.poses.size(), before.poses.size());
+    EXPECT_GT(after.poses.size(), before.poses.size() / 2);
+    EXPECT_EQ(after.poses[0].score, before.poses[0].score);
+    EXPECT_EQ(after.poses[0].channels, before.poses[0].channels);
+    const double moved =
+        distance.rmsd(after.poses[0].moving_in_fixed, before.poses[0].moving_in_fixed);
+    EXPECT_GT(moved, 0.01);
+    EXPECT_LT(moved, 8.0);  // evaluations times the longest step
+    for (std::size_t i = 0; i < after.poses.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GE(distance.rmsd(after.poses[i].moving_in_fixed, after.poses[j].moving_in_fixed),
+                  3.0 - 1e-9);
+  }
 }
 
 TEST(DockOptions, PresetsAndTheirErrors) {

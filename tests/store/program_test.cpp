@@ -132,7 +132,8 @@ TEST_F(Program, ExportKeepsTheRecordedChainsWhenAFileMoved) {
 }
 
 TEST_F(Program, ExportRefusesWhatMakesNoSense) {
-  expect_user_error("export run.h5 --format xyz", "expected pdb, cif, csv, json or zdock");
+  expect_user_error("export run.h5 --format xyz",
+                    "expected pdb, cif, csv, json, zdock, stl, ply or step");
   expect_user_error("export run.h5 --format pdb --pose 13", "the run holds 12 poses");
   expect_user_error("export run.h5 --format csv -o - --json", "choose one");
   expect_user_error("export run.h5 --format csv -o no/such/dir.csv", "there is no directory");

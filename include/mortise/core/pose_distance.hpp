@@ -26,6 +26,11 @@ class PoseDistance {
   /// @throws InputError if there is no point or one is not finite
   explicit PoseDistance(const Eigen::Matrix3Xd& points);
 
+  /// The same for weighted points: mean square distances are weighted means.
+  /// @param weights  N, >= 0, dimensionless; their sum > 0
+  /// @throws InputError as above, or if the weights do not fit
+  PoseDistance(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights);
+
   /// Mean square distance of corresponding points in the two poses, square of the points' unit.
   /// Time O(1), no allocation.
   [[nodiscard]] double mean_square(const RigidMotion& a, const RigidMotion& b) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "mortise/molecules/molecule.hpp"
 
@@ -32,5 +33,19 @@ struct SurfaceOptions {
 /// The same for a molecule's atoms with their atom_radii(), square angstrom.
 [[nodiscard]] Eigen::VectorXd accessible_areas(const Molecule& molecule,
                                                const SurfaceOptions& options = {});
+
+/// The points that accessible_areas() counts.
+struct AccessiblePoints {
+  Eigen::Matrix3Xd positions =
+      Eigen::Matrix3Xd(3, 0);       ///< 3 x P: where a probe's centre can be, in touch with a ball
+  std::vector<Eigen::Index> first;  ///< N + 1: those of ball i are columns first[i] to first[i + 1]
+  Eigen::VectorXd areas;            ///< N: what each point of ball i stands for
+};
+
+/// The same points one by one, so that areas can be counted again when another body covers some.
+/// @throws as accessible_areas() Time and memory likewise, and 24 bytes a point.
+[[nodiscard]] AccessiblePoints accessible_points(const Eigen::Matrix3Xd& centres,
+                                                 const Eigen::VectorXd& radii,
+                                                 const SurfaceOptions& options = {});
 
 }  // namespace mortise

@@ -23,7 +23,7 @@ struct ReadPartResult {
   TriangleMesh mesh;  ///< coordinates as in the file, in its own unit
   std::string unit;   ///< "mm", "in", ... of a STEP file; empty if the format knows no unit
   bool closed = false;
-  double volume = 0.0;                 ///< enclosed, cubic units of the file
+  double volume = 0.0;                 ///< as in RepairResult, cubic units of the file
   double deviation = 0.0;              ///< STEP: the one used, unit of the file; else 0
   std::vector<std::string> decisions;  ///< what was repaired, one line each
 };

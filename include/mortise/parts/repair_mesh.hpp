@@ -23,7 +23,8 @@ struct RepairOptions {
 struct RepairResult {
   TriangleMesh mesh;                   ///< no vertex unused, no triangle without area
   bool closed = false;                 ///< every edge is walked once each way by its triangles
-  double volume = 0.0;                 ///< enclosed, cubic units of the mesh; > 0 if closed
+  double volume = 0.0;                 ///< of all closed shells, cubic units of the mesh, cavities
+                                       ///< negative, overlaps twice; > 0 if closed
   long self_intersections = 0;         ///< pairs of triangles that cross; 0 if not looked for
   std::vector<std::string> decisions;  ///< what was changed or found, one line each; empty: nothing
 };

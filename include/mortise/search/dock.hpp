@@ -25,8 +25,10 @@ struct DockOptions {
                             ///< exposed side chains; >= 0
   bool rescore = true;      ///< rank by shape plus contact potential instead of shape alone
   std::string potential =
-      {};            ///< file of the contact potential; empty = fitted_contact_potential()
-  int poses = 2000;  ///< poses reported; >= 1
+      {};              ///< file of the contact potential; empty = fitted_contact_potential()
+  bool polish = true;  ///< move the best poses uphill on their score (polish.hpp); those that come
+                       ///< within the cluster radius of a better one are dropped
+  int poses = 2000;    ///< poses reported, at most; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none
   int threads = 0;  ///< 0 = all cores; never changes the result
@@ -54,7 +56,8 @@ class Docking {
   [[nodiscard]] const Knots& moving_knots() const;  ///< input frame
 
   /// Ranks what the search has found so far: best first, at most options.poses.
-  /// Channels: "shape", and with options.rescore "contact".
+  /// Channels: "shape", and with options.rescore "contact"; they and the score are those of the
+  /// place where the search found the pose, before polish.
   [[nodiscard]] PoseList rank() const;
 
  private:

@@ -11,15 +11,16 @@
 
 namespace mortise {
 
-enum class ExportFormat { kPdb, kMmcif, kCsv, kJson, kZdock };
+enum class ExportFormat { kPdb, kMmcif, kCsv, kJson, kZdock, kStl, kPly, kStep };
 
-/// "pdb", "cif", "csv", "json", "zdock". @throws InputError for any other name, listing these
+/// "pdb", "cif", "csv", "json", "zdock", "stl", "ply", "step". @throws InputError for any other
+/// name, listing these
 [[nodiscard]] ExportFormat parse_export_format(const std::string& name);
 
 struct ExportOptions {
-  int top = 0;           ///< best poses written; 0 = 10 as structures, all as tables
+  int top = 0;           ///< best poses written; 0 = 10 as structures, 1 as parts, all as tables
   int pose = 0;          ///< only the pose of this rank, from 1; 0 = the top ones
-  bool complex = false;  ///< structures: the fixed body too, in every model
+  bool complex = false;  ///< structures and parts: the fixed body too, in every model
 };
 
 /// Indices into run.poses.poses of the poses that the options choose, in rank order.
@@ -45,6 +46,16 @@ struct ExportOptions {
 /// The same as mmCIF; pdbx_PDB_model_num is the rank.
 [[nodiscard]] std::string export_mmcif(const Run& run, const Molecule& fixed,
                                        const Molecule& moving, const ExportOptions& options = {});
+
+/// The moving part at one pose, by index, in the fixed part's frame, as the bytes of an STL, PLY or
+/// STEP file. A STEP input written as STEP keeps its curved faces; otherwise, and with
+/// options.complex, the triangles are written. A mesh knows no unit: its STEP file says mm.
+/// @param fixed_path  read with options.complex only
+/// @throws InputError for a run of molecules, an index out of range or another format; as read_part
+/// and format_step
+[[nodiscard]] std::string export_part(const Run& run, ExportFormat format, std::size_t pose,
+                                      const std::string& fixed_path, const std::string& moving_path,
+                                      const ExportOptions& options = {});
 
 /// The .out layout of ZDOCK 3.0.2, on a grid of 0.001 so that whole steps place every atom within
 /// 0.001 A.

@@ -41,10 +41,6 @@ double diagonal(const TopoDS_Shape& shape) {
   return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
-bool has_solid(const TopoDS_Shape& shape) {
-  return TopExp_Explorer(shape, TopAbs_SOLID).More() == Standard_True;
-}
-
 TriangleMesh tessellate(const TopoDS_Shape& shape, const Fineness& fineness) {
   IMeshTools_Parameters parameters;
   parameters.Deflection = fineness.deviation;

@@ -40,7 +40,4 @@ struct UnitShape {
 /// @throws InputError if the unit is none that STEP files are written in
 [[nodiscard]] double millimetres_per(const std::string& unit);
 
-/// Whether a solid is among the shapes.
-[[nodiscard]] bool has_solid(const TopoDS_Shape& shape);
-
 }  // namespace mortise::brep

@@ -16,15 +16,14 @@ struct Fineness {
   double smallest = 0.0;   ///< no edge is split below this length, unit of the file
 };
 
-/// Reads, moves and writes boundary representations. Calls are serialised inside.
+/// Reads, moves and writes boundary representations. Safe to call from several threads at once.
 class StepKernel {
  public:
   virtual ~StepKernel() = default;
 
   struct Tessellation {
-    TriangleMesh soup;  ///< triangles by face: what faces share is not merged yet
-    std::string unit;   ///< "mm", "m", "in", ...; the unit of the coordinates
-    bool has_solid = false;
+    TriangleMesh soup;       ///< triangles by face: what faces share is not merged yet
+    std::string unit;        ///< "mm", "m", "in", ...; the unit of the coordinates
     double deviation = 0.0;  ///< the one used, unit of the file
   };
 

@@ -7,7 +7,7 @@
 // the means onto each other and takes the R that makes tr(R S) largest. Differences of large sums
 // cost digits: with spreads of 10^6 A^2 and double precision the mean square is good to 1e-10 A^2,
 // so an RMSD of zero comes out below 1e-5 A.
-#include "metrics/paired_moments.hpp"
+#include "core/paired_moments.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

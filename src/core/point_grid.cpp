@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Building the cell list.
-#include "metrics/point_grid.hpp"
+#include "core/point_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise assemble: energy, force and torque along a path at a fixed rate, or a part let go.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iomanip>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "commands.hpp"
+#include "line_plot.hpp"
+#include "mortise/assembly/assembly_session.hpp"
+#include "mortise/assembly/hand_path.hpp"
+#include "mortise/assembly/part_field.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/parts/mesh_solid.hpp"
+#include "mortise/parts/read_part.hpp"
+#include "pose_csv.hpp"
+
+namespace mortise::app {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string fixed, moving, path, goal, output, plot, write_path;
+  double rate = 1000.0;
+  PartFieldOptions field;
+  std::string field_kind = "double-skin";
+  double sigma = SkeletalFieldOptions().sigma;
+  AssemblyOptions assembly;
+  HandPathOptions hand;
+  int free_starts = 0;
+  double start_shift = 0.15, start_angle = 10.0;  // part of the radius; degrees
+  FollowOptions follow;
+};
+
+// Quantiles of times in microseconds.
+struct Latency {
+  double median = 0.0, percentile_99 = 0.0, percentile_999 = 0.0, largest = 0.0;
+};
+
+Latency latency(std::vector<double> times) {
+  if (times.empty()) return {};
+  std::sort(times.begin(), times.end());
+  const auto at = [&](double share) {
+    return times[std::min(times.size() - 1,
+                          static_cast<std::size_t>(share * static_cast<double>(times.size())))];
+  };
+  return {at(0.5), at(0.99), at(0.999), times.back()};
+}
+
+struct Session {
+  AssemblySession session;
+  double seconds;
+  long fixed_triangles, moving_triangles;
+};
+
+Session make_session(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const ReadPartResult fixed = read_part(options.fixed), moving = read_part(options.moving);
+  const MeshSolidOptions solid{.threads = options.common.threads};
+  const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
+  const double thickness = options.field.thickness > 0.0
+                               ? options.field.thickness
+                               : std::min(default_thickness(first), default_thickness(second));
+  const auto density = [&](const MeshSolid& part) {
+    if (options.field_kind == "skeletal")
+      return skeletal_field(part, {.grid = options.field.grid,
+                                   .margin = thickness,
+                                   .sigma = options.sigma,
+                                   .penalty = options.field.penalty,
+                                   .threads = options.common.threads});
+    PartFieldOptions field = options.field;
+    field.thickness = thickness;
+    return double_skin_field(part, field);
+  };
+  AssemblySession session(density(first), density(second), options.assembly);
+  return {std::move(session),
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          static_cast<long>(fixed.mesh.size()), static_cast<long>(moving.mesh.size())};
+}
+
+double now() {
+  timespec t = {};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Sleeps until shortly before, then watches the clock: the system wakes sleepers late.
+void wait_until(double time) {
+  constexpr double kWatch = 2e-4;
+  const double sleep = time - kWatch;
+  if (sleep > now()) {
+    const timespec until = {static_cast<time_t>(sleep),
+                            static_cast<long>((sleep - std::floor(sleep)) * 1e9)};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+  }
+  while (now() < time) {
+  }
+}
+
+struct Loop {
+  std::vector<Wrench> wrenches;
+  std::vector<double> compute,
+      late;        // microseconds: of the wrench; of the step's end after its start
+  int misses = 0;  // steps that ended after the next was due
+};
+
+Loop run_loop(const AssemblySession& session, const std::vector<RigidMotion>& path, double rate) {
+  Loop loop;
+  loop.wrenches.resize(path.size());
+  loop.compute.resize(path.size());
+  loop.late.resize(path.size());
+  const double period = 1.0 / rate, start = now() + 0.01;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double due = start + static_cast<double>(i) * period;
+    wait_until(due);
+    const double begun = now();
+    loop.wrenches[i] = session.wrench(path[i]);
+    const double ended = now();
+    loop.compute[i] = 1e6 * (ended - begun);
+    loop.late[i] = 1e6 * (ended - due);
+    if (ended > due + period) ++loop.misses;
+    if (interrupted()) throw Interrupted("the path was not followed to its end");
+  }
+  return loop;
+}
+
+void write_wrenches(const std::string& file_name, const Loop& loop, double rate) {
+  std::ofstream file(file_name);
+  file << "time,energy,fx,fy,fz,tx,ty,tz,microseconds\n" << std::setprecision(9);
+  for (std::size_t i = 0; i < loop.wrenches.size(); ++i) {
+    const Wrench& w = loop.wrenches[i];
+    file << static_cast<double>(i) / rate << ',' << w.energy;
+    for (int d = 0; d < 3; ++d) file << ',' << w.force[d];
+    for (int d = 0; d < 3; ++d) file << ',' << w.torque[d];
+    file << ',' << loop.compute[i] << '\n';
+  }
+  file.close();
+  if (!file) throw FileError(file_name, "cannot be written");
+}
+
+void write_plot(const std::string& file_name, const Loop& loop, double rate) {
+  std::vector<double> time, energy, force[3], torque[3];
+  for (std::size_t i = 0; i < loop.wrenches.size(); ++i) {
+    const Wrench& w = loop.wrenches[i];
+    time.push_back(static_cast<double>(i) / rate);
+    energy.push_back(w.energy);
+    for (int d = 0; d < 3; ++d) {
+      force[d].push_back(w.force[d]);
+      torque[d].push_back(w.torque[d]);
+    }
+  }
+  write_line_plot(file_name, "time (s)", time,
+                  {{"energy", {{"E", energy}}},
+                   {"force", {{"x", force[0]}, {"y", force[1]}, {"z", force[2]}}},
+                   {"torque", {{"x", torque[0]}, {"y", torque[1]}, {"z", torque[2]}}},
+                   {"time per step (us)", {{"", loop.compute}}}});
+}
+
+std::vector<RigidMotion> path_of(const Options& options, const AssemblySession& session) {
+  if (!options.path.empty()) return read_pose_csv(options.path);
+  const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
+  if (goals.empty()) throw FileError(options.goal, "holds no pose");
+  HandPathOptions hand = options.hand;
+  hand.rate = options.rate;
+  return hand_path(goals.front(), session.moving_centre(), session.moving_radius(), hand);
+}
+
+void follow_path(const Options& options, const Session& made) {
+  const std::vector<RigidMotion> path = path_of(options, made.session);
+  if (!options.write_path.empty()) write_pose_csv(options.write_path, path);
+  const Loop loop = run_loop(made.session, path, options.rate);
+  if (!options.output.empty()) write_wrenches(options.output, loop, options.rate);
+  if (!options.plot.empty()) write_plot(options.plot, loop, options.rate);
+  const Latency compute = latency(loop.compute), late = latency(loop.late);
+  if (options.common.json) {
+    const auto quantiles = [](const Latency& l) {
+      return nlohmann::ordered_json{{"median", l.median},
+                                    {"percentile_99", l.percentile_99},
+                                    {"percentile_99_9", l.percentile_999},
+                                    {"largest", l.largest}};
+    };
+    const nlohmann::ordered_json figures = {{"steps", path.size()},
+                                            {"rate", options.rate},
+                                            {"modes", made.session.modes()},
+                                            {"fixed_triangles", made.fixed_triangles},
+                                            {"moving_triangles", made.moving_triangles},
+                                            {"preparation_seconds", made.seconds},
+                                            {"compute_microseconds", quantiles(compute)},
+                                            {"step_microseconds", quantiles(late)},
+                                            {"misses", loop.misses}};
+    std::printf("%s\n", figures.dump().c_str());
+    return;
+  }
+  if (options.common.quiet) return;
+  std::printf("parts        %ld and %ld triangles, prepared in %.1f s\n", made.fixed_triangles,
+              made.moving_triangles, made.seconds);
+  std::printf("path         %zu steps at %g Hz, m' = %d modes\n", path.size(), options.rate,
+              made.session.modes());
+  std::printf("us per step  median    99%%  99.9%%  largest\n");
+  std::printf("  wrench     %6.1f %6.1f %6.1f %8.1f\n", compute.median, compute.percentile_99,
+              compute.percentile_999, compute.largest);
+  std::printf("  due to end %6.1f %6.1f %6.1f %8.1f\n", late.median, late.percentile_99,
+              late.percentile_999, late.largest);
+  std::printf("misses       %d\n", loop.misses);
+}
+
+// Random starts around a goal, let go; home is within 2% of the radius and 2 degrees.
+void let_go(const Options& options, const Session& made) {
+  const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
+  if (goals.empty()) throw FileError(options.goal, "holds no pose");
+  const AssemblySession& session = made.session;
+  const RigidMotion& goal = goals.front();
+  const Rest mate = follow(session, goal, options.follow);
+  const double radius = session.moving_radius();
+  const Eigen::Vector3d& centre = session.moving_centre();
+  std::mt19937_64 random(options.hand.seed);
+  const auto uniform = [&] { return 2.0 * static_cast<double>(random() >> 11) * 0x1.0p-53 - 1.0; };
+  const auto in_ball = [&] {
+    Eigen::Vector3d p;
+    do p << uniform(), uniform(), uniform();
+    while (p.norm() > 1.0);
+    return p;
+  };
+  std::vector<RigidMotion> ends;
+  int home = 0;
+  for (int i = 0; i < options.free_starts; ++i) {
+    const Eigen::Vector3d turn = options.start_angle * std::numbers::pi / 180.0 * in_ball();
+    RigidMotion start = goal;
+    start.rotation = canonical(
+        Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * goal.rotation);
+    start.translation =
+        goal * centre + options.start_shift * radius * in_ball() - start.rotation * centre;
+    const Rest rest = follow(session, start, options.follow);
+    ends.push_back(rest.pose);
+    if ((rest.pose * centre - mate.pose * centre).norm() < 0.02 * radius &&
+        rotation_angle(rest.pose.rotation, mate.pose.rotation) < 2.0 * std::numbers::pi / 180.0)
+      ++home;
+  }
+  if (!options.output.empty()) write_pose_csv(options.output, ends);
+  const double drift = (mate.pose * centre - goal * centre).norm() / radius;
+  if (options.common.json) {
+    const nlohmann::ordered_json figures = {{"starts", options.free_starts},
+                                            {"home", home},
+                                            {"mate_energy", mate.wrench.energy},
+                                            {"mate_drift", drift}};
+    std::printf("%s\n", figures.dump().c_str());
+    return;
+  }
+  if (options.common.quiet) return;
+  std::printf("mate    energy %.4g, rests %.2f%% of the radius from the goal\n", mate.wrench.energy,
+              100.0 * drift);
+  std::printf("starts  %d of %d end in it\n", home, options.free_starts);
+}
+
+void run(Options options) {
+  options.field.threads = options.assembly.threads = options.common.threads;
+  if (options.path.empty() == options.goal.empty())
+    throw InputError("assemble: give either --path or --goal");
+  if (options.free_starts > 0 && options.goal.empty())
+    throw InputError("assemble: --free starts around a pose: give --goal");
+  const Session made = make_session(options);
+  if (options.free_starts > 0)
+    let_go(options, made);
+  else
+    follow_path(options, made);
+}
+
+}  // namespace
+
+void add_assemble(CLI::App& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "assemble", "Energy, force and torque of two parts along a path at haptic rate");
+  command->add_option("fixed", options->fixed, "Part (mesh, STEP)")->required();
+  command->add_option("moving", options->moving, "Part that the path moves")->required();
+  command->add_option("--path", options->path,
+                      "CSV with columns qw, qx, qy, qz, tx, ty, tz: one pose per step");
+  command->add_option(
+      "--goal", options->goal,
+      "CSV whose first pose is the mate: a hand that explores and ends there is made up");
+  command->add_option("--seconds", options->hand.seconds, "Length of the made-up path")
+      ->capture_default_str();
+  command->add_option("--seed", options->hand.seed, "Of the made-up path or of the starts")
+      ->capture_default_str();
+  command->add_option("--write-path", options->write_path, "CSV to keep the path in");
+  command->add_option("--rate", options->rate, "Steps per second")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option(
+      "-o,--output", options->output,
+      "CSV: time, energy, force, torque (about the moving part's origin), time spent; "
+      "with --free: the poses of rest");
+  command->add_option("--plot", options->plot, "SVG of the same");
+  command
+      ->add_option("--modes", options->assembly.modes, "Fourier modes m': more make contact harder")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000000));
+  command->add_option("--grid", options->field.grid, "Nodes along a part's longest side")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 1024));
+  command
+      ->add_option(
+          "--field", options->field_kind,
+          "What parts are made of: double-skin, or skeletal (densities of their skeletons)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"double-skin", "skeletal"}));
+  command
+      ->add_option("--sigma", options->sigma,
+                   "Thickness factor of the skeletons: smaller is sharper")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--thickness", options->field.thickness,
+          "Skin in which parts attract each other, unit of the files; 0 = 0.15 of the smaller part")
+      ->capture_default_str();
+  command
+      ->add_option("--penalty", options->field.penalty, "What overlap costs against what fit gains")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--free", options->free_starts,
+          "Let the part go from so many random starts near --goal and count those that snap in")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--start-shift", options->start_shift,
+                   "Of those starts, part of the moving part's radius")
+      ->capture_default_str();
+  command
+      ->add_option("--start-angle", options->start_angle, "Largest turn of those starts, degrees")
+      ->capture_default_str();
+  add_common_options(
+      *command, options->common,
+      "  mortise assemble block.stl peg.stl --path hand.csv -o wrench.csv --plot wrench.svg\n"
+      "  mortise assemble block.stl peg.stl --goal mate.csv --seconds 30 --json\n"
+      "  mortise assemble block.stl peg.stl --goal mate.csv --free 50\n");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace mortise::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The two bodies of a run as a report shows them, and finding their files again.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mortise/molecules/molecule.hpp"
+#include "mortise/parts/triangle_mesh.hpp"
+#include "mortise/store/inputs.hpp"
+#include "mortise/store/run_file.hpp"
+
+namespace mortise {
+
+/// One body: a molecule in a docking run, a mesh in a run of parts; the other is empty.
+struct ReportBody {
+  std::string found;  ///< path of the file as it was found now
+  Molecule molecule;  ///< input frame; waters left out
+  TriangleMesh mesh;  ///< input frame
+  std::string unit;   ///< of the coordinates: "angstrom", "mm", ...; empty = unknown
+
+  [[nodiscard]] bool is_mesh() const noexcept { return mesh.size() > 0; }
+};
+
+struct ReportBodies {
+  ReportBody fixed;
+  ReportBody moving;
+  std::vector<std::string> notices;  ///< for the user: "the receptor's file is now at ..."
+};
+
+/// Where a body's file may have gone.
+struct SearchPlaces {
+  LocateOptions fixed;                   ///< as locate_input
+  LocateOptions moving;                  ///< likewise
+  std::vector<std::string> directories;  ///< looked through for a file of the recorded SHA-256
+};
+
+/// Finds and reads both bodies of a run: where the run says, else by name or contents in the
+/// directories (not below them; only files of the same ending, at most 256 MB each).
+/// @throws FileError naming the body if no file has its contents; as read_molecule and read_part;
+/// InputError for a run that is neither of molecules nor of parts
+[[nodiscard]] ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places = {});
+
+/// 3 x N points of a body, input frame: heavy atoms, or vertices of the mesh that a triangle uses.
+[[nodiscard]] Eigen::Matrix3Xd report_points(const ReportBody& body);
+
+}  // namespace mortise

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the page shows, as JSON; web/page/data.js reads it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "mortise/report/bodies.hpp"
+
+namespace mortise::detail {
+
+// @param frequency  touch_frequency() of the best frequency_poses poses
+[[nodiscard]] std::string page_data(const Run& run, const ReportBodies& bodies,
+                                    const Eigen::VectorXd& frequency, int frequency_poses);
+
+// "1hpv_receptor" of "some/where/1hpv_receptor.pdb.gz#2:A".
+[[nodiscard]] std::string body_name(const BodyRecord& body);
+
+}  // namespace mortise::detail

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The run as the report shows it: poses of a checkpoint, clusters, sizes of clusters.
+#include <algorithm>
+#include <numeric>
+
+#include "mortise/core/errors.hpp"
+#include "mortise/report/interface_columns.hpp"
+#include "mortise/report/write_report.hpp"
+#include "mortise/search/cluster.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr std::size_t kProvisionalPoses = 2000;
+
+// The best raw candidates of an unfinished search, in input frames.
+PoseList provisional_poses(const Run& run) {
+  const Checkpoint& c = *run.checkpoint;
+  std::vector<std::size_t> order(c.score.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t count = std::min(kProvisionalPoses, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return c.score[a] != c.score[b] ? c.score[a] > c.score[b] : a < b;
+                    });
+  PoseList list;
+  list.channel_names = c.channel_names;
+  const RigidMotion fixed_from_search = inverse(run.fixed.search_from_input);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto i = static_cast<Eigen::Index>(order[k]);
+    const std::int32_t rotation = c.rotation_index[order[k]];
+    const Eigen::Vector4d q = run.rotations.quaternions.col(rotation);
+    const RigidMotion searched = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), c.translation.col(i)};
+    Pose pose;
+    pose.moving_in_fixed =
+        compose(compose(fixed_from_search, searched), run.moving.search_from_input);
+    pose.moving_in_fixed.rotation = canonical(pose.moving_in_fixed.rotation);
+    pose.score = c.score[order[k]];
+    for (Eigen::Index channel = 0; channel < c.channels.rows(); ++channel)
+      pose.channels.push_back(c.channels(channel, i));
+    pose.rotation_index = rotation;
+    list.poses.push_back(pose);
+  }
+  return list;
+}
+
+bool has_clusters(const PoseList& list) {
+  std::vector<char> seen(list.poses.size(), 0);
+  for (const Pose& pose : list.poses) {
+    const auto cluster = static_cast<std::size_t>(pose.cluster);
+    if (pose.cluster < 0 || cluster >= seen.size()) continue;
+    if (seen[cluster] != 0) return true;
+    seen[cluster] = 1;
+  }
+  return false;
+}
+
+void cluster(Run& run, const Eigen::Matrix3Xd& points, double radius) {
+  std::vector<RigidMotion> motions;
+  for (const Pose& pose : run.poses.poses) motions.push_back(pose.moving_in_fixed);
+  const Clusters clusters = cluster_poses(motions, points, {.radius = radius});
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    run.poses.poses[i].cluster = clusters.cluster_of[i];
+}
+
+MetricColumn cluster_sizes(const PoseList& list) {
+  std::vector<double> sizes(list.poses.size() + 1, 0.0);
+  const auto slot = [&](const Pose& pose) {
+    return static_cast<std::size_t>(pose.cluster) < list.poses.size() && pose.cluster >= 0
+               ? static_cast<std::size_t>(pose.cluster)
+               : list.poses.size();
+  };
+  for (const Pose& pose : list.poses) sizes[slot(pose)] += 1.0;
+  MetricColumn column = {"cluster_size", {}};
+  for (const Pose& pose : list.poses)
+    column.values.push_back(slot(pose) == list.poses.size() ? 1.0 : sizes[slot(pose)]);
+  return column;
+}
+
+}  // namespace
+
+Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptions& options) {
+  check_run(run, "report");
+  if (options.structures < 0)
+    throw InputError("report: structures must be >= 0, got " + std::to_string(options.structures));
+  if (options.interfaces < 0)
+    throw InputError("report: interfaces must be >= 0, got " + std::to_string(options.interfaces));
+  if (options.pictures < 0)
+    throw InputError("report: pictures must be >= 0, got " + std::to_string(options.pictures));
+  if (options.cluster_radius && !(*options.cluster_radius >= 0.0))
+    throw InputError("report: cluster_radius must be >= 0, got " +
+                     std::to_string(*options.cluster_radius));
+  Run shown = run;
+  if (shown.poses.poses.empty() && !shown.complete && shown.checkpoint) {
+    shown.poses = provisional_poses(shown);
+    shown.metrics.clear();
+  }
+  if (shown.poses.poses.empty()) return shown;
+
+  double radius = options.cluster_radius.value_or(0.0);
+  const Eigen::Matrix3Xd points = report_points(bodies.moving);
+  if (!options.cluster_radius && !has_clusters(shown.poses) && points.cols() > 0) {
+    const Eigen::Vector3d center = points.rowwise().mean();
+    radius = 0.2 * (points.colwise() - center).colwise().norm().maxCoeff();
+  }
+  if (radius > 0.0 && points.cols() > 0) cluster(shown, points, radius);
+  std::erase_if(shown.metrics, [](const MetricColumn& m) { return m.name == "cluster_size"; });
+  shown.metrics.insert(shown.metrics.begin(), cluster_sizes(shown.poses));
+  const bool described =
+      std::any_of(shown.metrics.begin(), shown.metrics.end(),
+                  [](const MetricColumn& m) { return m.name == "interface_area"; });
+  if (options.interfaces > 0 && !described && !bodies.fixed.is_mesh())
+    set_metric_columns(
+        shown, interface_columns(MolecularInterface(bodies.fixed.molecule, bodies.moving.molecule,
+                                                    {.threads = options.threads}),
+                                 shown.poses, static_cast<std::size_t>(options.interfaces),
+                                 options.threads));
+  return shown;
+}
+
+}  // namespace mortise

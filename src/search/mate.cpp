@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mating of two parts: knots and channels, the search, judging what it finds.
+#include "mortise/search/mate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mortise/affinity/sampled_field.hpp"
+#include "mortise/core/errors.hpp"
+#include "mortise/core/threads.hpp"
+#include "mortise/parts/diameter.hpp"
+#include "mortise/parts/sample_surface.hpp"
+#include "mortise/search/cluster.hpp"
+#include "search/mate_contact.hpp"
+#include "search/mate_directions.hpp"
+
+namespace mortise {
+namespace {
+
+void check_options(const MateOptions& o) {
+  const auto refuse = [](const std::string& what) { throw InputError("mate: " + what); };
+  const auto positive = [&](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      refuse(std::string(name) + " must be > 0 and finite, got " + std::to_string(value));
+  };
+  if (o.rotations < 1) refuse("rotations must be >= 1, got " + std::to_string(o.rotations));
+  if (o.aligned < 0 || o.turns < 0)
+    refuse("aligned and turns must be >= 0, got " + std::to_string(o.aligned) + " and " +
+           std::to_string(o.turns));
+  positive("spacing", o.spacing);
+  positive("most cells", o.most_cells);
+  positive("skin", o.skin);
+  positive("detail", o.detail);
+  positive("tolerance", o.tolerance);
+  if (!(o.penalty > 1.0)) refuse("penalty must be > 1, got " + std::to_string(o.penalty));
+  if (!(o.feature >= 0.0)) refuse("feature must be >= 0, got " + std::to_string(o.feature));
+  if (!(o.flat >= 0.0 && o.flat <= 1.0))
+    refuse("flat must be 0 to 1, got " + std::to_string(o.flat));
+  if (!(o.overlap >= 0.0)) refuse("overlap must be >= 0, got " + std::to_string(o.overlap));
+  if (o.samples < 100) refuse("samples must be >= 100, got " + std::to_string(o.samples));
+  if (o.polished < 1) refuse("polished must be >= 1, got " + std::to_string(o.polished));
+  if (o.poses < 1) refuse("poses must be >= 1, got " + std::to_string(o.poses));
+  if (!(o.cluster_radius >= 0.0))
+    refuse("cluster radius must be >= 0, got " + std::to_string(o.cluster_radius));
+  if (o.axis && !(o.axis->fixed.norm() > 0.0 && o.axis->moving.norm() > 0.0))
+    refuse("an axis must not be 0");
+}
+
+// Nodes of a lattice over the field's grid and the distances there.
+Knots skin_knots(const DistanceField& field, const SampledSkinOptions& options) {
+  const Eigen::Vector3d low = field.low();
+  const Eigen::Vector3d extent = field.high() - low;
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<double> distances;
+  Eigen::Vector3f gradient;
+  for (double x = 0.5 * options.spacing; x < extent[0]; x += options.spacing)
+    for (double y = 0.5 * options.spacing; y < extent[1]; y += options.spacing)
+      for (double z = 0.5 * options.spacing; z < extent[2]; z += options.spacing) {
+        const Eigen::Vector3d node = low + Eigen::Vector3d(x, y, z);
+        const float d = field.at(node.cast<float>(), gradient);
+        if (d > options.offset + options.spacing) continue;  // and kFar
+        nodes.push_back(node);
+        distances.push_back(d);
+      }
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = nodes[i];
+  return sample_double_skin(points,
+                            Eigen::Map<const Eigen::VectorXd>(
+                                distances.data(), static_cast<Eigen::Index>(distances.size())),
+                            options);
+}
+
+// `count` turns about the fixed axis, for each way round that the moving axis can lie along it;
+// into the search frame.
+RotationSet axial_rotations(const MateAxis& axis, int count,
+                            const Eigen::Quaterniond& search_from_fixed) {
+  RotationSet set;
+  set.quaternions.resize(4, 2 * Eigen::Index{count});
+  const Eigen::Vector3d to = axis.fixed.normalized();
+  for (int way = 0; way < 2; ++way) {
+    const Eigen::Vector3d onto = way == 0 ? to : Eigen::Vector3d(-to);
+    const auto lay = Eigen::Quaterniond::FromTwoVectors(axis.moving.normalized(), onto);
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Quaterniond q = canonical(
+          search_from_fixed *
+          Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi * i / count, to)) * lay);
+      set.quaternions.col(Eigen::Index{way} * count + i) << q.w(), q.x(), q.y(), q.z();
+    }
+  }
+  set.covering_radius = std::numbers::pi / count;
+  return set;
+}
+
+// Best first; equal values in the order given, so that the ranking is the same everywhere.
+std::vector<std::size_t> ranking(const std::vector<double>& score) {
+  std::vector<std::size_t> order(score.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return score[a] > score[b]; });
+  return order;
+}
+
+struct Placed {
+  RigidMotion motion;
+  std::int32_t rotation = -1;
+};
+
+}  // namespace
+
+struct Mating::Impl {
+  MateOptions options;
+  double unit = 0.0;  // smaller diameter
+  std::unique_ptr<ContactPair> pair;
+  Knots fixed_knots, moving_knots;
+  RotationSet rotations;
+  std::unique_ptr<RotationSearch> search;
+
+  // Contact and penetration of a placement as shares of the smaller surface.
+  [[nodiscard]] std::array<double, 2> channels(const RigidMotion& motion, double tolerance,
+                                               double share) const {
+    const ContactFit fit = pair->fit(motion, tolerance, share);
+    const double area = pair->smaller_area();
+    return {(fit.spread[1] + fit.spread[2] + options.flat * fit.spread[0]) / area,
+            -options.overlap * fit.penetration / area};
+  }
+
+  [[nodiscard]] double score(const RigidMotion& motion, double tolerance, double share) const {
+    const auto [contact, penetration] = channels(motion, tolerance, share);
+    return contact + penetration;
+  }
+
+  [[nodiscard]] RigidMotion polish(const RigidMotion& start) const {
+    RigidMotion motion = start;
+    for (const double scale : {4.0, 2.0, 1.0})
+      motion = pair->descend(motion, scale * options.tolerance * unit, 2.0, 1.0, 10);
+    // Descending one energy may lose in another: never worse than it was.
+    return score(motion, options.tolerance * unit, 1.0) >=
+                   score(start, options.tolerance * unit, 1.0)
+               ? motion
+               : start;
+  }
+
+  // Applies `change` to each placement, judges it at a tolerance, clusters and keeps the best.
+  template <class Change>
+  [[nodiscard]] std::vector<Placed> sieve(std::vector<Placed> all, const Change& change,
+                                          double tolerance, double share, double radius,
+                                          std::size_t keep) const {
+    std::vector<double> scores(all.size());
+    constexpr std::size_t kPiece = 16;
+    parallel_for((all.size() + kPiece - 1) / kPiece, options.threads, [&](std::size_t piece, int) {
+      const std::size_t end = std::min(all.size(), (piece + 1) * kPiece);
+      for (std::size_t i = piece * kPiece; i < end; ++i) {
+        all[i].motion = change(all[i].motion);
+        scores[i] = score(all[i].motion, tolerance, share);
+      }
+    });
+    const std::vector<std::size_t> order = ranking(scores);
+    std::vector<RigidMotion> motions;
+    motions.reserve(order.size());
+    for (const std::size_t i : order) motions.push_back(all[i].motion);
+    const Clusters clusters = cluster_poses(motions, pair->moving().points.cast<double>(),
+                                            {.radius = radius * unit, .max_clusters = keep});
+    std::vector<Placed> kept;
+    for (const std::size_t f : clusters.founders) kept.push_back(all[order[f]]);
+    return kept;
+  }
+};
+
+Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+  check_options(options);
+  impl_->options = options;
+  constexpr Eigen::Index kProbe = 2000;
+  SurfaceSamples fixed_samples = sample_surface(fixed.mesh, kProbe);
+  SurfaceSamples moving_samples = sample_surface(moving.mesh, kProbe);
+  impl_->unit = std::min(diameter_of(fixed.mesh.vertices), diameter_of(moving.mesh.vertices));
+  const double unit = impl_->unit;
+  // One density of samples for both surfaces, within reason.
+  const double smaller = std::min(fixed_samples.area, moving_samples.area);
+  const auto count = [&](double area) {
+    return static_cast<Eigen::Index>(std::min(20.0, area / smaller) * options.samples);
+  };
+  fixed_samples = sample_surface(fixed.mesh, count(fixed_samples.area));
+  moving_samples = sample_surface(moving.mesh, count(moving_samples.area));
+  // A fixed part much larger than the moving one needs a box that a grid as fine would make slow.
+  const double reach = diameter_of(moving.mesh.vertices) + 2.0 * options.skin * unit;
+  const double box = (fixed.solid->bounds().sizes().array() + reach).prod();
+  const double coarser =
+      std::max(1.0, std::cbrt(box / options.most_cells) / (options.spacing * unit));
+  const double step = coarser * options.spacing * unit;
+  const double offset = coarser * options.skin * unit;
+  const double margin = std::max(offset + 2.0 * step, 16.0 * options.tolerance * unit);
+  const auto body = [&](const MatePart& part, const SurfaceSamples& samples) {
+    // As fine as asked, but for a part so much the larger that its grid would not fit.
+    constexpr double kMostNodes = 1.2e7;
+    const Eigen::AlignedBox3d bounds = part.solid->bounds();
+    const double volume = (bounds.sizes().array() + 2.0 * margin).prod();
+    const double detail = std::max(options.detail * unit, std::cbrt(volume / kMostNodes));
+    return ContactBody(samples, DistanceField(*part.solid, detail, margin, options.threads),
+                       bounds.center());
+  };
+  impl_->pair =
+      std::make_unique<ContactPair>(body(fixed, fixed_samples), body(moving, moving_samples));
+  const SampledSkinOptions skin{.spacing = step,
+                                .offset = offset,
+                                .penalty = options.penalty,
+                                .feature = options.feature,
+                                .feature_radius = 2.0 * offset};
+  impl_->fixed_knots = skin_knots(impl_->pair->fixed().field, skin);
+  impl_->moving_knots = skin_knots(impl_->pair->moving().field, skin);
+  SearchOptions search;
+  search.spacing = skin.spacing;
+  search.cutoff = 0.75 / skin.spacing;
+  search.per_rotation = options.per_rotation;
+  search.separation = options.separation * unit;
+  search.threads = options.threads;
+  const std::vector<Channel> channels{
+      sampled_channel("skin", 1.0, impl_->fixed_knots, impl_->moving_knots, skin.spacing)};
+  // The search's frame depends on the knots alone: a search on a coarse grid tells it.
+  SearchOptions coarse = search;
+  coarse.spacing = 4.0 * search.spacing;
+  const Eigen::Quaterniond search_from_fixed =
+      RotationSearch(channels, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0), coarse)
+          .search_from_fixed()
+          .rotation;
+  if (options.axis) {
+    impl_->rotations = axial_rotations(*options.axis, options.rotations, search_from_fixed);
+  } else {
+    impl_->rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
+    const Eigen::Matrix4Xd aligned = aligned_rotations(
+        find_directions(fixed.mesh), find_directions(moving.mesh), options.turns, options.aligned);
+    const Eigen::Index regular = impl_->rotations.size();
+    impl_->rotations.quaternions.conservativeResize(4, regular + aligned.cols());
+    for (Eigen::Index i = 0; i < aligned.cols(); ++i) {
+      const Eigen::Quaterniond q =
+          canonical(search_from_fixed *
+                    Eigen::Quaterniond(aligned(0, i), aligned(1, i), aligned(2, i), aligned(3, i)));
+      impl_->rotations.quaternions.col(regular + i) << q.w(), q.x(), q.y(), q.z();
+    }
+  }
+  impl_->search = std::make_unique<RotationSearch>(channels, impl_->rotations.quaternions, search);
+}
+
+Mating::~Mating() = default;
+Mating::Mating(Mating&&) noexcept = default;
+Mating& Mating::operator=(Mating&&) noexcept = default;
+
+RotationSearch& Mating::search() { return *impl_->search; }
+const RotationSet& Mating::rotations() const { return impl_->rotations; }
+const Knots& Mating::fixed_knots() const { return impl_->fixed_knots; }
+const Knots& Mating::moving_knots() const { return impl_->moving_knots; }
+double Mating::smaller_diameter() const { return impl_->unit; }
+
+Pose Mating::judge(const RigidMotion& motion) const {
+  Pose pose;
+  pose.moving_in_fixed = motion;
+  const auto channels = impl_->channels(motion, impl_->options.tolerance * impl_->unit, 1.0);
+  pose.channels = {channels[0], channels[1]};
+  pose.score = channels[0] + channels[1];
+  return pose;
+}
+
+RigidMotion Mating::polish(const RigidMotion& motion) const { return impl_->polish(motion); }
+
+PoseList Mating::rank() const {
+  const Impl& run = *impl_;
+  const double unit = run.unit;
+  const double tolerance = run.options.tolerance * unit;
+  std::vector<Placed> placed;
+  for (const Candidate& c : run.search->candidates())
+    placed.push_back({run.search->moving_in_fixed(c), c.rotation_index});
+  const auto keep = static_cast<std::size_t>(run.options.polished);
+  const auto as_it_is = [](const RigidMotion& m) { return m; };
+  // Coarse to fine, few points to many, many placements to few.
+  placed = run.sieve(std::move(placed), as_it_is, 4.0 * tolerance, 0.15, run.options.cluster_radius,
+                     20 * keep);
+  placed = run.sieve(
+      std::move(placed),
+      [&](const RigidMotion& m) {
+        // From afar a wide energy finds the way, from near by it may lose it: both are tried.
+        const RigidMotion wide = run.pair->descend(
+            run.pair->descend(m, 6.0 * tolerance, 1.0, 0.1, 5), 3.0 * tolerance, 1.0, 0.15, 5);
+        const RigidMotion narrow = run.pair->descend(m, 2.0 * tolerance, 1.0, 0.15, 6);
+        return run.score(wide, 2.0 * tolerance, 0.25) >= run.score(narrow, 2.0 * tolerance, 0.25)
+                   ? wide
+                   : narrow;
+      },
+      2.0 * tolerance, 0.25, run.options.cluster_radius, keep);
+  placed = run.sieve(
+      std::move(placed), [&](const RigidMotion& m) { return run.polish(m); }, tolerance, 1.0,
+      run.options.cluster_radius, static_cast<std::size_t>(run.options.poses));
+  PoseList best{{"contact", "penetration"}, {}};
+  for (const Placed& p : placed) {
+    best.poses.push_back(judge(p.motion));
+    best.poses.back().rotation_index = p.rotation;
+    best.poses.back().cluster = static_cast<int>(best.poses.size()) - 1;
+  }
+  return best;
+}
+
+}  // namespace mortise

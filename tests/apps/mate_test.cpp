@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mortise mate as a user runs it: output, evaluation, export, threads, going on, errors.
+#include "mortise/search/mate.hpp"
+
+#include "apps/program.hpp"
+#include "mortise/metrics/true_mates.hpp"
+#include "mortise/parts/read_part.hpp"
+
+namespace mortise {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using testing::datasets;
+using ::testing::HasSubstr;
+using testing::Outcome;
+
+class Mate : public testing::Program {
+ protected:
+  Mate() {
+    for (const char* file :
+         {"dovetail_socket_close.stl", "dovetail_tail.stl", "dovetail_tail.step", "mates.json"})
+      fs::copy_file(fs::path(MORTISE_SOURCE_DIR) / "parts" / file, scratch_ / file);
+  }
+  // The flat faces alone give the right rotation: one of SO(3) is enough.
+  static std::string mate(const std::string& output, const std::string& further = "") {
+    return "mate dovetail_socket_close.stl dovetail_tail.stl -o " + output +
+           " --rotations 1 --polished 20 --poses 20 --samples 1000 --check 1 " + further;
+  }
+};
+
+TEST_F(Mate, FindsADovetailFromARandomStartAndGoesOnWithIt) {
+  const Outcome outcome = must(mate("run.h5", "--random-start 3"));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("fixed     dovetail_socket_close.stl"), HasSubstr("wrote run.h5"),
+                    HasSubstr("contact_area"), HasSubstr("moved at random by seed 3")));
+  const nlohmann::json found = json("evaluate run.h5 --reference-pose mates.json");
+  EXPECT_EQ(found["first_within_2_percent"], 1);
+  EXPECT_LT(found["error_of_first"], 0.005);
+  EXPECT_EQ(found["pair"], "dovetail_close");
+  const mortise::Run run = read_run(path("run.h5"));
+  EXPECT_EQ(run.kind, "mate");
+  EXPECT_EQ(run.poses.channel_names, (std::vector<std::string>{"contact", "penetration"}));
+  ASSERT_EQ(run.metrics.size(), 9U);
+  EXPECT_EQ(run.metrics[0].name, "contact_area");
+  EXPECT_GT(run.metrics[0].values[0], 0.0);
+  EXPECT_EQ(run.metrics[7].name, "placement_largest");
+
+  // Every format, the moved part where the pose says.
+  const TriangleMesh moving = read_part(path("dovetail_tail.stl")).mesh;
+  const Eigen::Matrix3Xd placed = run.poses.poses.front().moving_in_fixed * moving.vertices;
+  for (const char* format : {"stl", "ply", "step"}) {
+    must(std::string("export run.h5 --format ") + format + " -o out." + format);
+    const TriangleMesh mesh = read_part(path(std::string("out.") + format)).mesh;
+    EXPECT_LT((mesh.vertices.rowwise().minCoeff() - placed.rowwise().minCoeff()).norm(), 1e-3)
+        << format;
+    EXPECT_LT((mesh.vertices.rowwise().maxCoeff() - placed.rowwise().maxCoeff()).norm(), 1e-3)
+        << format;
+  }
+  must("export run.h5 --format stl --complex --top 2 -o both.stl");
+  EXPECT_TRUE(fs::exists(path("both_1.stl")) && fs::exists(path("both_2.stl")));
+  expect_user_error("export run.h5 --format pdb", "for molecules");
+  expect_user_error("evaluate run.h5 --reference-fixed a.pdb --reference-moving b.pdb",
+                    "--reference-pose");
+}
+
+TEST_F(Mate, JsonHasTheKeysScriptsRelyOn) {
+  const nlohmann::json json = this->json(mate("run.h5", "--axis 0,0,1:0,0,1"));
+  for (const char* key : {"rotations", "poses", "seconds", "fft_ratio", "best_score",
+                          "seconds_check", "peak_memory_mb"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["rotations"], 2);
+}
+
+TEST_F(Mate, ThreadsAndInterruptionsChangeNothing) {
+  must(mate("one.h5", "--threads 1"));
+  must(mate("three.h5", "--threads 3"));
+  const std::string expected = datasets(read_run(path("one.h5")));
+  EXPECT_EQ(datasets(read_run(path("three.h5"))), expected);
+  const pid_t process = start(mate("cut.h5", "--threads 1 --checkpoint 0"));
+  if (wait_for("cut.h5")) ::kill(process, SIGKILL);
+  (void)finish(process);
+  must("mate -o cut.h5 --resume");
+  EXPECT_EQ(datasets(read_run(path("cut.h5"))), expected);
+  must("mate -o cut.h5 --resume --quiet");  // complete: nothing to do
+  expect_user_error("mate -o cut.h5 --resume --spacing 0.5", "spacing differs");
+  expect_user_error("dock -o cut.h5 --resume", "mate run");
+}
+
+TEST_F(Mate, SaysWhatIsWrong) {
+  expect_user_error("mate dovetail_tail.stl -o run.h5", "expected two inputs");
+  expect_user_error("mate dovetail_tail.stl none.stl -o run.h5", "none.stl");
+  expect_user_error(mate("run.h5", "--spacing 0"), "spacing");
+  expect_user_error(mate("run.h5", "--axis 1,2"), "--axis");
+  expect_user_error("mate dovetail_tail.stl mates.json -o dovetail_tail.stl --force", "an input");
+}
+
+}  // namespace
+}  // namespace mortise
