@@ -46,6 +46,7 @@ const std::map<std::string, KnotWeights> kWeights = {{"unit", KnotWeights::kUnit
 template <typename Value>
 std::vector<std::string> names(const std::map<std::string, Value>& values) {
   std::vector<std::string> result;
+  result.reserve(values.size());
   for (const auto& [name, value] : values) result.push_back(name);
   return result;
 }

@@ -120,16 +120,17 @@ SphereTree sphere_tree(const Eigen::Matrix4Xd& balls, const SphereTreeOptions& o
   // Level by level, the children in the order of their parents.
   std::vector<int> order = {0};
   Eigen::Index at = 0;
-  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-    auto next = static_cast<int>(at + level->balls.cols());
+  std::reverse(levels.begin(), levels.end());
+  for (const Level& level : levels) {
+    auto next = static_cast<int>(at + level.balls.cols());
     std::vector<int> below;
     for (const int node : order) {
-      const int count = level->count[node];
-      tree.balls.col(at) = level->balls.col(node);
+      const int count = level.count[node];
+      tree.balls.col(at) = level.balls.col(node);
       tree.children[at] = count;
       tree.first_child[at] = count == 0 ? -1 : next;
-      if (count == 0) tree.leaf[at] = level->first[node];
-      for (int c = 0; c < count; ++c) below.push_back(level->first[node] + c);
+      if (count == 0) tree.leaf[at] = level.first[node];
+      for (int c = 0; c < count; ++c) below.push_back(level.first[node] + c);
       next += count;
       ++at;
     }
