@@ -50,12 +50,12 @@ struct Shell {
 };
 
 std::vector<Shell> shells(const InstrumentKernel& kernel, int dimension) {
-  const auto n = static_cast<int>(kernel.degree());
+  const Eigen::Index n = kernel.degree();
   std::vector<double> by_square(static_cast<std::size_t>(dimension * n * n + 1), 0.0);
-  const auto c = [&](int j) { return (j == 0 ? 1.0 : 2.0) * kernel.coefficients[j]; };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j)
-      for (int k = 0; k <= (dimension == 3 ? n : 0); ++k)
+  const auto c = [&](Eigen::Index j) { return (j == 0 ? 1.0 : 2.0) * kernel.coefficients[j]; };
+  for (Eigen::Index i = 0; i <= n; ++i)
+    for (Eigen::Index j = 0; j <= n; ++j)
+      for (Eigen::Index k = 0; k <= (dimension == 3 ? n : 0); ++k)
         by_square[static_cast<std::size_t>(i * i + j * j + k * k)] += c(i) * c(j) * c(k);
   std::vector<Shell> result;
   for (std::size_t q = 0; q < by_square.size(); ++q)

@@ -41,12 +41,11 @@ Balls kept(const Balls& balls) {
 // faults otherwise. Only advice: what happens without it is the same.
 void advise_large_pages([[maybe_unused]] Balls& balls) {
 #ifdef __linux__
-  constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
-  const auto begin = reinterpret_cast<std::uintptr_t>(balls.data());
-  const std::uintptr_t end = begin + static_cast<std::size_t>(balls.size()) * sizeof(float);
-  const std::uintptr_t first = (begin + kPage - 1) / kPage * kPage;
-  if (end > first + kPage)
-    madvise(reinterpret_cast<void*>(first), (end - first) / kPage * kPage, MADV_HUGEPAGE);
+  constexpr std::size_t kPage = std::size_t{1} << 21;
+  const std::size_t bytes = static_cast<std::size_t>(balls.size()) * sizeof(float);
+  auto* begin = reinterpret_cast<char*>(balls.data());
+  const std::size_t skip = (kPage - reinterpret_cast<std::uintptr_t>(begin) % kPage) % kPage;
+  if (bytes > skip + kPage) madvise(begin + skip, (bytes - skip) / kPage * kPage, MADV_HUGEPAGE);
 #endif
 }
 

@@ -30,7 +30,7 @@ Eigen::Matrix<double, Rows, 1> numbers(const Json& json, const char* key) {
   if (values.size() != Rows)
     throw InputError(std::string(key) + ": expected " + std::to_string(Rows) + " numbers, found " +
                      std::to_string(values.size()));
-  const Eigen::Matrix<double, Rows, 1> result =
+  Eigen::Matrix<double, Rows, 1> result =
       Eigen::Map<const Eigen::Matrix<double, Rows, 1>>(values.data());
   if (!result.allFinite()) throw InputError(std::string(key) + ": expected finite numbers");
   return result;
