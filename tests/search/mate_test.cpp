@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <memory>
 
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/placement.hpp"
+#include "mortise/parts/mesh_solid.hpp"
 #include "search/mate_contact.hpp"
 #include "search/voxel_parts.hpp"
 
@@ -154,15 +156,19 @@ TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
 TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
   std::mt19937 random(13);
   const RigidMotion start = random_motion(random, 2.5, 10.0);
-  const MatePart moving = tenon_plate(start);
+  MatePart fixed = mortise_block();
+  MatePart moving = tenon_plate(start);
+  fixed.solid = std::make_shared<MeshSolid>(fixed.mesh);
+  moving.solid = std::make_shared<MeshSolid>(moving.mesh);
   MateOptions options = small_options();
   options.skeletal = 100.0;
-  Mating mating(mortise_block(), moving, options);
+  EXPECT_THROW(Mating(mortise_block(), moving, options), InputError);  // no MeshSolid
+  Mating mating(fixed, moving, options);
   ASSERT_TRUE(mating.search().run());
   const PoseList list = mating.rank();
   EXPECT_LT(largest_error(moving, inverse(start), list.poses.front().moving_in_fixed), 0.002);
   options.skeletal = -1.0;
-  EXPECT_THROW(Mating(mortise_block(), moving, options), InputError);
+  EXPECT_THROW(Mating(fixed, moving, options), InputError);
 }
 
 TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
