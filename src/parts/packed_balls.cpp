@@ -20,7 +20,8 @@ std::vector<GridBall> packed_balls(const NodeField& field) {
     if (room[i] > 0.0F) queue.emplace(room[i], i);
   std::vector<GridBall> balls;
   while (!queue.empty()) {
-    const auto [radius, i] = queue.top();
+    const float radius = queue.top().first;  // no structured binding: the lambda below takes it
+    const auto i = queue.top().second;
     queue.pop();
     if (room[i] <= 0.0F) continue;
     if (room[i] < radius) {  // it has shrunk since it was queued
