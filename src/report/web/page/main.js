@@ -103,6 +103,8 @@ async function start() {
     cards.repaint();
   };
   viewer?.onContacts(() => cards.repaint());
+  // The plots paint in the next frame, when their sizes are known.
+  await new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); });
   document.documentElement.dataset.ready = 'all';
   globalThis.mortise = { run, state, viewer };  // for the browser's console
 }

@@ -24,7 +24,7 @@ const tickText = (value, list) => {
  * pick(x, y) acts on a click.
  */
 export function makeCard(parent, title, { controls = [], note = '', draw, hover, pick, describe }) {
-  const canvas = element('canvas', { role: 'img' });
+  const canvas = element('canvas', { role: 'img', 'aria-label': title });  // describe() says more once it is painted
   const noteLine = element('p', { class: 'note' }, note);
   const card = element('figure', { class: 'card' }, element('div', { class: 'card-head' }, element('h2', {}, title), element('span', { class: 'grow' }), ...controls), canvas, noteLine);
   parent.append(card);
