@@ -24,7 +24,7 @@
 namespace mortise::app {
 namespace {
 
-struct Options {
+struct AssembleFlags {
   CommonOptions common;
   std::string fixed, moving, path, goal, output, plot, write_path;
   double rate = 1000.0;
@@ -59,7 +59,7 @@ struct Session {
   long fixed_triangles, moving_triangles;
 };
 
-Session make_session(const Options& options) {
+Session make_session(const AssembleFlags& options) {
   const auto start = std::chrono::steady_clock::now();
   const ReadPartResult fixed = read_part(options.fixed), moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
@@ -162,7 +162,7 @@ void write_plot(const std::string& file_name, const Loop& loop, double rate) {
                    {"time per step (us)", {{"", loop.compute}}}});
 }
 
-std::vector<RigidMotion> path_of(const Options& options, const AssemblySession& session) {
+std::vector<RigidMotion> path_of(const AssembleFlags& options, const AssemblySession& session) {
   if (!options.path.empty()) return read_pose_csv(options.path);
   const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
   if (goals.empty()) throw FileError(options.goal, "holds no pose");
@@ -171,7 +171,7 @@ std::vector<RigidMotion> path_of(const Options& options, const AssemblySession& 
   return hand_path(goals.front(), session.moving_centre(), session.moving_radius(), hand);
 }
 
-void follow_path(const Options& options, const Session& made) {
+void follow_path(const AssembleFlags& options, const Session& made) {
   const std::vector<RigidMotion> path = path_of(options, made.session);
   if (!options.write_path.empty()) write_pose_csv(options.write_path, path);
   const Loop loop = run_loop(made.session, path, options.rate);
@@ -211,7 +211,7 @@ void follow_path(const Options& options, const Session& made) {
 }
 
 // Random starts around a goal, let go; home is within 2% of the radius and 2 degrees.
-void let_go(const Options& options, const Session& made) {
+void let_go(const AssembleFlags& options, const Session& made) {
   const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
   if (goals.empty()) throw FileError(options.goal, "holds no pose");
   const AssemblySession& session = made.session;
@@ -258,7 +258,7 @@ void let_go(const Options& options, const Session& made) {
   std::printf("starts  %d of %d end in it\n", home, options.free_starts);
 }
 
-void run(Options options) {
+void run(AssembleFlags options) {
   options.field.threads = options.assembly.threads = options.common.threads;
   if (options.path.empty() == options.goal.empty())
     throw InputError("assemble: give either --path or --goal");
@@ -274,7 +274,7 @@ void run(Options options) {
 }  // namespace
 
 void add_assemble(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AssembleFlags>();
   CLI::App* command = program.add_subcommand(
       "assemble", "Energy, force and torque of two parts along a path at haptic rate");
   command->add_option("fixed", options->fixed, "Part (mesh, STEP)")->required();
