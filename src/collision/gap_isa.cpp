@@ -166,7 +166,7 @@ struct Block {
 #if defined(__AVX512F__)
   using Mask __attribute__((vector_size(64))) = int;
   constexpr Mask kLow = {-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0};
-  const Sixteen place = kLow ? Sixteen{} + y : Sixteen{} + z;
+  const Sixteen place = kLow ? y - Sixteen{} : z - Sixteen{};  // plus zero would be an addition
   load(pieces, w.yz);
   for (int term = 1; term < kPieceTerms; ++term) {
     Sixteen next;

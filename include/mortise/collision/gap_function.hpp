@@ -57,7 +57,7 @@ class GapFunction {
   GapFunction& operator=(GapFunction&&) noexcept;
 
   /// The value and all six derivatives from the first `modes` modes (0 = all) in single precision,
-  /// the moving spectrum by interpolation. No allocation. Time O(modes), about 8 ns each.
+  /// the moving spectrum by interpolation. No allocation. Time O(modes), about 4 ns each.
   [[nodiscard]] GapValue operator()(const RigidMotion& moving_in_fixed, int modes = 0) const;
 
   /// The same at many poses. @throws InputError if the counts differ
