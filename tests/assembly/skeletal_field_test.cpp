@@ -25,7 +25,7 @@ struct Press {
 
 AssemblySession session(int modes, double sigma, double penalty) {
   const MeshSolid box(shapes::box({2.0, 2.0, 1.0}));
-  const BodyDensity field = skeletal_field(box, {.grid = 32, .sigma = sigma, .penalty = penalty});
+  const BodyDensity field = skeletal_field(box, {.grid = 24, .sigma = sigma, .penalty = penalty});
   return {field, field, {.modes = modes}};
 }
 

@@ -76,7 +76,8 @@ class GapFunction {
 
   /// d / ds of the gradient at s = 0 of the poses (exp(s [rotation]x) R, t + s translation). Away
   /// from a stationary point the rotations' block is not symmetric: turns do not commute.
-  /// By a central difference of the fast gradient, whose step suits the modes: twice its time.
+  /// By a central difference of the fast gradient, whose step suits the modes: twice its time; off
+  /// by about 1% of the largest.
   [[nodiscard]] GapProduct hessian_product(const RigidMotion& moving_in_fixed,
                                            const Eigen::Vector3d& translation,
                                            const Eigen::Vector3d& rotation, int modes = 0) const;
