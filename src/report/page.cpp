@@ -107,7 +107,7 @@ std::string report_page(const Run& run, const ReportBodies& bodies, const PageOp
   return fill(detail::page_template(),
               escape_html(detail::body_name(run.fixed) + " + " + detail::body_name(run.moving) +
                           " - Mortise"),
-              base64(gzip(detail::page_data(run, bodies, frequency, counted))));
+              base64(gzip(detail::page_data(run, bodies, options.clusters, frequency, counted))));
 }
 
 }  // namespace mortise

@@ -151,10 +151,14 @@ std::string body_name(const BodyRecord& body) {
   return name.empty() ? std::string("unnamed") : name.string();
 }
 
-std::string page_data(const Run& run, const ReportBodies& bodies, const Eigen::VectorXd& frequency,
-                      int frequency_poses) {
+std::string page_data(const Run& run, const ReportBodies& bodies, const ReportClusters& clusters,
+                      const Eigen::VectorXd& frequency, int frequency_poses) {
   const std::vector<Pose>& poses = run.poses.poses;
   Json head = head_json(run, bodies, frequency_poses);
+  head["clusters"] = {{"measure", clusters.measure},
+                      {"radius", clusters.radius},
+                      {"min_size", clusters.min_size},
+                      {"count", clusters.sizes.size()}};
   head["bodies"] = {body_json(run.fixed, bodies.fixed, "fixed"),
                     body_json(run.moving, bodies.moving, "moving")};
   if (bodies.fixed.is_mesh()) {  // seen as the best pose asks for

@@ -29,8 +29,9 @@ TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
   const ReportFiles result = write_report(run, bodies, scratch / "a/b", {.structures = 2});
   for (const std::string& name : result.files)
     EXPECT_TRUE(std::filesystem::exists(scratch / ("a/b/" + name))) << name;
-  for (const char* name : {"poses.csv", "poses.json", "poses/fixed.pdb", "poses/pose_0001.pdb",
-                           "poses/pose_0002.pdb", "poses.pml", "poses.cxc"})
+  for (const char* name :
+       {"poses.csv", "poses.json", "clusters.csv", "clusters.json", "poses/fixed.pdb",
+        "poses/pose_0001.pdb", "poses/pose_0002.pdb", "poses.pml", "poses.cxc"})
     EXPECT_THAT(result.files, Contains(name));
   EXPECT_EQ(report_page_available(), result.files.front() == "index.html");
   EXPECT_EQ(report_page_available(), result.warnings.empty());
@@ -74,6 +75,17 @@ TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
   EXPECT_THAT(read_whole_file(scratch / "parts/poses.pml"), Not(HasSubstr("cartoon")));
 }
 
+TEST(WriteReport, GoesOnWithoutStructures) {
+  const ScratchDirectory scratch;
+  ReportBodies bodies = protease();
+  const mortise::Run run = report_run(bodies, 4);
+  bodies.moving = {};
+  const ReportFiles result = write_report(run, bodies, scratch / "bare");
+  EXPECT_THAT(result.files, Contains("clusters.csv"));
+  EXPECT_THAT(result.files, Not(Contains("poses.pml")));
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("no structure files")));
+}
+
 TEST(WriteReport, RefusesADirectoryThatCannotBe) {
   const ScratchDirectory scratch;
   write_file_atomically(scratch / "file", "here");
@@ -112,7 +124,18 @@ TEST_F(ReportCommand, ReportsADockingRun) {
   std::filesystem::rename(path("1hpv_ligand.pdb"), path("moved/other.pdb"));
   EXPECT_THAT(must("report moved/run.h5").error,
               HasSubstr("was found by its SHA-256 at moved/other.pdb"));
-  std::filesystem::remove(path("moved/other.pdb"));
+  must("report moved/run.h5 --cluster interface --cluster-radius 4 --min-cluster-size 2");
+  EXPECT_EQ(
+      nlohmann::json::parse(read_whole_file(path("moved/run_report/clusters.json")))["measure"],
+      "interface");
+  expect_user_error("report moved/run.h5 --min-cluster-size 0", "must be >= 1, got 0");
+  expect_user_error("report moved/run.h5 --cluster-radius -2", "must be >= 0, got -2");
+  std::filesystem::create_directories(path("archive/deep"));
+  std::filesystem::rename(path("moved/other.pdb"), path("archive/deep/other.pdb"));
+  EXPECT_THAT(must("report moved/run.h5 --search archive").error,
+              HasSubstr("was found by its SHA-256 at archive/deep/other.pdb"));
+  std::filesystem::remove(path("archive/deep/other.pdb"));
+  EXPECT_THAT(must("report moved/run.h5 --allow-missing").error, HasSubstr("Without structures: "));
   expect_user_error("report moved/run.h5", "1hpv_ligand.pdb: the run's moving input is not there");
   expect_user_error("report 1hpv_receptor.pdb", "1hpv_receptor.pdb");
 }

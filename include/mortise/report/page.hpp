@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mortise/report/bodies.hpp"
+#include "mortise/report/clusters.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise {
@@ -23,8 +24,9 @@ namespace mortise {
                                               double cutoff, int poses, int threads = 0);
 
 struct PageOptions {
-  int frequency_poses = 1000;  ///< best poses that the map on the surface counts; >= 1
-  int threads = 0;             ///< 0 = all cores; never changes the result
+  ReportClusters clusters = {};  ///< of the run's poses, as cluster_run() gave them
+  int frequency_poses = 1000;    ///< best poses that the map on the surface counts; >= 1
+  int threads = 0;               ///< 0 = all cores; never changes the result
 };
 
 /// The page as HTML text, about 0.6 MB and 30 bytes per number of the run.
