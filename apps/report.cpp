@@ -97,6 +97,11 @@ void add_report(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
+      .add_option(
+          "--page-triangles", options->report.part_triangles,
+          "A larger part is simplified to about so many on the page, which says by how much")
+      ->capture_default_str();
+  command
       .add_option("--png", options->report.pictures,
                   "So many best poses as PNG, ray traced, and the plots: for papers")
       ->capture_default_str()

@@ -54,6 +54,9 @@ PreparedReport prepare_report(const Run& run, const ReportBodies& bodies,
     throw InputError("report: interfaces must be >= 0, got " + std::to_string(options.interfaces));
   if (options.pictures < 0)
     throw InputError("report: pictures must be >= 0, got " + std::to_string(options.pictures));
+  if (options.part_triangles < 100)
+    throw InputError("report: part_triangles must be >= 100, got " +
+                     std::to_string(options.part_triangles));
   PreparedReport prepared = {run, {}};
   Run& shown = prepared.run;
   if (shown.poses.poses.empty() && !shown.complete && shown.checkpoint) {

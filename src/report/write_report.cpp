@@ -176,9 +176,10 @@ ReportFiles write_report(const Run& run, const ReportBodies& bodies, const std::
 
   Writer writer(directory);
   if (report_page_available())
-    writer.write(
-        "index.html",
-        report_page(shown, told, {.clusters = prepared.clusters, .threads = options.threads}));
+    writer.write("index.html", report_page(shown, told,
+                                           {.clusters = prepared.clusters,
+                                            .part_triangles = options.part_triangles,
+                                            .threads = options.threads}));
   else
     writer.warn("no index.html: this build was configured with MORTISE_REPORT=OFF");
   writer.write("poses.csv", csv_of(shown));

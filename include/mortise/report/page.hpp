@@ -26,11 +26,14 @@ namespace mortise {
 struct PageOptions {
   ReportClusters clusters = {};  ///< of the run's poses, as cluster_run() gave them
   int frequency_poses = 1000;    ///< best poses that the map on the surface counts; >= 1
+  int part_triangles = 40'000;   ///< a larger part is simplified to about so many; >= 100
   int threads = 0;               ///< 0 = all cores; never changes the result
 };
 
 /// The page as HTML text, about 0.6 MB and 30 bytes per number of the run.
 ///
+/// A part is in it with about PageOptions::part_triangles at most, and what that changed, measured,
+/// is written beside it; the fixed part's large triangles are cut up, for its colours.
 /// All names and paths from files are data inside it, never markup; it loads nothing from outside
 /// and its content security policy says so.
 /// @throws InputError without report_page_available(), or as check_run

@@ -19,6 +19,7 @@ struct ReportOptions {
   /// best poses of molecules whose interface is described (interface_columns), unless the run has
   /// these columns; 0 = none; >= 0
   int interfaces = 50;
+  int part_triangles = 40'000;  ///< as PageOptions::part_triangles; >= 100
   int pictures = 0;  ///< best poses drawn as PNG, and the plots with them; 0 = none; >= 0
   int threads = 0;   ///< 0 = all cores; never changes the result
 };
