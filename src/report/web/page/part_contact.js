@@ -87,7 +87,8 @@ export function makePartContact(run) {
   function measure(pose) {
     const m = motion(run, pose);
     const gaps = new Float32Array(fixed.areas.length).fill(NaN);
-    const touching = new Uint8Array(fixed.areas.length);
+    const touching = new Uint8Array(fixed.areas.length);  // 1 = in contact, 2 = overlapping
+    const partner = new Int32Array(fixed.areas.length);   // face of the moving part
     const pairs = new Map();
     const [cx, cy, cz] = movingBody.center;
     const far = (movingBody.radius + reach) ** 2;
@@ -112,6 +113,7 @@ export function makePartContact(run) {
       gaps[t] = inside ? -near.distance : near.distance;
       if (!touches && !deep) continue;
       touching[t] = touches ? 1 : 2;
+      partner[t] = faces[1].of[near.triangle];
       const key = faces[0].of[t] * 1e6 + faces[1].of[near.triangle];
       const pair = pairs.get(key) ?? { fixed: faces[0].of[t], moving: faces[1].of[near.triangle], contact: 0, overlap: 0, depth: 0 };
       if (touches) pair.contact += fixed.areas[t];
@@ -121,7 +123,7 @@ export function makePartContact(run) {
       if (touches) contact += fixed.areas[t];
       else overlap += fixed.areas[t];
     }
-    return { gaps, touching, contact, overlap, pairs: [...pairs.values()].sort((a, b) => b.contact + b.overlap - a.contact - a.overlap) };
+    return { gaps, touching, partner, contact, overlap, pairs: [...pairs.values()].sort((a, b) => b.contact + b.overlap - a.contact - a.overlap) };
   }
 
   return { measure, faces, tolerance, reach };
