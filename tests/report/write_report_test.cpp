@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -106,6 +107,38 @@ TEST(ViewerScripts, LoadEachFileOnceAndShowTheBestPose) {
   ViewerFiles alone = {"fixed.stl", {}, true};
   EXPECT_THAT(pymol_script(alone), Not(HasSubstr("cartoon")));
   EXPECT_THAT(chimerax_script(alone), Not(HasSubstr("#2")));
+}
+
+// What Debian's pymol says of a report's script and of what is shown after it.
+std::string in_pymol(const std::string& directory) {
+  write_file_atomically(directory + "/check.pml",
+                        "print('shown', cmd.get_names('objects', enabled_only=1))\n"
+                        "print('all', len(cmd.get_names('objects')), cmd.count_atoms('interface') "
+                        "if 'interface' in cmd.get_names('all') else 0)\n");
+  const std::string command = "cd '" + directory +
+                              "' && PATH=/usr/bin:/bin HOME=. timeout 300 pymol -cq poses.pml "
+                              "check.pml > pymol.log 2>&1 < /dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(cert-env33-c): a test's own words
+  return read_whole_file(directory + "/pymol.log");
+}
+
+TEST(ViewerScripts, RunInPymol) {
+  if (!std::filesystem::exists("/usr/bin/pymol")) GTEST_SKIP() << "there is no /usr/bin/pymol";
+  const ScratchDirectory scratch;
+  const ReportBodies molecules = protease();
+  mortise::Run run = report_run(molecules, 3);
+  for (Pose& pose : run.poses.poses) pose.moving_in_fixed = {};
+  (void)write_report(run, molecules, scratch / "molecules", {.structures = 2, .interfaces = 0});
+  const std::string docked = in_pymol(scratch / "molecules");
+  EXPECT_THAT(docked, HasSubstr("shown ['fixed_body', 'pose_0001']"));
+  EXPECT_THAT(docked, Not(HasSubstr("Error")));
+  EXPECT_THAT(docked, Not(HasSubstr("all 3 0\n"))) << "the interface has atoms";
+  const ReportBodies parts = plate_and_pin();
+  (void)write_report(report_run(parts, 3), parts, scratch / "parts", {.structures = 2});
+  const std::string mated = in_pymol(scratch / "parts");
+  EXPECT_THAT(mated, HasSubstr("shown ['fixed_body', 'pose_0001']"));
+  EXPECT_THAT(mated, HasSubstr("all 3 0\n"));
+  EXPECT_THAT(mated, Not(HasSubstr("Error")));
 }
 
 class ReportCommand : public Program {};

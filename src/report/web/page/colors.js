@@ -21,8 +21,8 @@ const lerp = (a, b, share) => a.map((low, c) => Math.round(low + share * (b[c] -
 
 /** Surfaces in contact, from little to most, and in the 3D view from near to touching: teal, told from magenta by all. */
 export const CONTACT_RAMP = () => (isDark() ? [[38, 62, 66], [72, 209, 204]] : [[214, 236, 236], [11, 114, 133]]);
-export const CONTACT_3D = [[157, 187, 224], [0, 128, 128]];
-export const OVERLAP = [214, 51, 132];
+export const CONTACT_3D = [[157, 187, 224], [0, 168, 160]];
+export const OVERLAP = [226, 60, 142];
 
 export const mix = ([low, high], share) => lerp(low, high, Math.max(0, Math.min(1, share)));
 
