@@ -58,11 +58,15 @@ std::string pymol_script(const ViewerFiles& files) {
       text += "select interface, byres ((" + fixed + " within 5 of " + best + ") or (" + best +
               " within 5 of " + fixed + "))\nshow sticks, interface\ndeselect\n";
     }
-    text += "util.cnc\n";
+    text += "util.cnc\nset surface_color, lightblue, " + fixed + "\n";
   }
   for (std::size_t i = 1; i < files.poses.size(); ++i)
     text += "disable " + stem(files.poses[i]) + "\n";
-  return text + "bg_color white\norient\n";
+  text += "bg_color white\n";
+  const std::string shown =
+      kPymolFixed + (files.poses.empty() ? std::string() : " or " + stem(files.poses.front()));
+  if (files.meshes) return text + "set depth_cue, 0\nzoom all, complete=1\n";
+  return text + "orient " + shown + "\n";
 }
 
 std::string chimerax_script(const ViewerFiles& files) {

@@ -16,6 +16,7 @@
 #include "mortise/report/viewer_scripts.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/export.hpp"
+#include "report/page_mesh.hpp"
 
 namespace mortise {
 namespace {
@@ -115,10 +116,14 @@ void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
   }
   if (without_structures(bodies)) return;
   try {
+    constexpr Eigen::Index kDrawn = 200'000;  // triangles: a pixel or so each
+    ReportBodies drawn = bodies;
+    drawn.fixed.mesh = detail::simplified(bodies.fixed.mesh, kDrawn).mesh;
+    drawn.moving.mesh = detail::simplified(bodies.moving.mesh, kDrawn).mesh;
     const PictureOptions picture = {.threads = options.threads};
     for (std::size_t i = 0; i < count; ++i) {
       const std::string name = "poses/" + pose_file_name(i + 1, "png");
-      render_scene(povray_scene(bodies, run.poses.poses[i].moving_in_fixed, picture),
+      render_scene(povray_scene(drawn, run.poses.poses[i].moving_in_fixed, picture),
                    (writer.directory() / name).string(), picture);
       writer.note(name);
     }

@@ -8,8 +8,8 @@ const LIFT = 6e-3;  // of the part's radius
 const PATCH_LIFT = 1.5e-3;  // of the part's radius
 const EDGES_PER_SHAPE = 400;  // the viewer goes through all lines of a shape for each line added
 
-/** Corners with normals of their own where the surface bends, and the lines along such edges. */
-function prepare({ mesh: { vertices, triangles }, radius }) {
+/** Corners with normals of their own where the surface bends, and the lines along such edges; in simplified parts those between faces. */
+function prepare({ mesh: { vertices, triangles }, radius, deviation }, faceOf) {
   const faces = triangles.length / 3;
   const normals = new Float32Array(3 * faces);
   const areas = new Float32Array(3 * faces);  // normals by twice the area
@@ -53,7 +53,7 @@ function prepare({ mesh: { vertices, triangles }, radius }) {
     }
   const ends = [];
   for (const [key, shared] of sides) {
-    if (shared.length === 2 && dot(shared[0], shared[1]) >= CREASE) continue;
+    if (shared.length === 2 && (dot(shared[0], shared[1]) >= CREASE || (deviation && faceOf[shared[0]] === faceOf[shared[1]]))) continue;
     // A hair outside of the surface, or the faces would hide half of the line.
     const lift = [0, 1, 2].map((k) => LIFT * radius * shared.reduce((sum, f) => sum + normals[3 * f + k], 0) / shared.length);
     for (const v of [Math.floor(key / count), key % count]) for (let k = 0; k < 3; ++k) ends.push(vertices[3 * v + k] + lift[k]);
@@ -67,9 +67,9 @@ const xyz = (numbers) => {
   return list;
 };
 
-export function showMesh(viewer, fixedBody, movingBody) {
-  const fixed = prepare(fixedBody);
-  const moving = prepare(movingBody);
+export function showMesh(viewer, fixedBody, movingBody, faces) {
+  const fixed = prepare(fixedBody, faces[0].of);
+  const moving = prepare(movingBody, faces[1].of);
   const still = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
   let shapes = [];
   let drawnFixed = '';

@@ -4,6 +4,7 @@ import { motion } from './geometry.js';
 import { TriangleTree } from './triangle_tree.js';
 
 const CREASE = Math.cos((30 * Math.PI) / 180);  // a face ends where the surface bends more
+const SLIVER = 5e-4;  // of a part's area
 const FACING = -0.5;  // cosine between the outward normals of surfaces in contact
 
 /** What a face is: all normals alike, across one axis, or at one angle to it. */
@@ -54,6 +55,17 @@ function facesOf(tree) {
     const bend = tree.normals[3 * a] * tree.normals[3 * b] + tree.normals[3 * a + 1] * tree.normals[3 * b + 1] + tree.normals[3 * a + 2] * tree.normals[3 * b + 2];
     if (bend > CREASE) root[find(a)] = find(b);
   }
+  // Slivers, such as simplifying leaves, belong to the largest face beside them.
+  const total = tree.areas.reduce((a, b) => a + b, 0);
+  const size = new Float64Array(count);
+  for (let t = 0; t < count; ++t) size[find(t)] += tree.areas[t];
+  const beside = new Map();
+  for (const list of sides.values())
+    for (const [a, b] of list.length === 2 ? [list, [list[1], list[0]]] : []) {
+      const [r, other] = [find(a), find(b)];
+      if (r !== other && size[r] < SLIVER * total && size[other] > (size[beside.get(r)] ?? size[r])) beside.set(r, other);
+    }
+  for (const [r, other] of beside) root[r] = other;
   const members = new Map();
   for (let t = 0; t < count; ++t) {
     const r = find(t);

@@ -15,12 +15,13 @@ function representatives(run) {
   return new Set(first.values());
 }
 
-/** "44 clusters of 3 poses or more: interface RMSD < 3.0 \u00c5". */
+/** "44 clusters of \u2265 3, i-RMSD < 3 \u00c5". */
 function clusterText(run) {
   const { measure, radius, min_size: least, count } = run.clusters;
   if (!count && least <= 1) return '';
-  const rule = measure === 'run' ? '' : `: ${measure === 'interface' ? 'interface' : run.kind === 'mate' ? 'moving part\u2019s' : 'ligand'} RMSD < ${shortText(radius, 2)} ${lengthUnit(run)}`.trimEnd();
-  return `${countText(count, 'cluster')}${least > 1 ? ` of ${least} poses or more` : ''}${rule}`;
+  const what = measure === 'interface' ? 'i-RMSD' : run.kind === 'mate' ? 'RMSD' : 'L-RMSD';
+  const rule = measure === 'run' ? '' : `, ${what} < ${shortText(radius, 2)} ${lengthUnit(run)}`.trimEnd();
+  return `${countText(count, 'cluster')}${least > 1 ? ` of \u2265 ${least}` : ''}${rule}`;
 }
 
 /** Filters that make sense for this run: name, label, and which poses stay. */

@@ -192,7 +192,7 @@ export async function makeViewer(run) {
     redraw();
   }
 
-  const meshes = isMesh ? showMesh(viewer, fixedBody, movingBody) : null;
+  const meshes = isMesh ? showMesh(viewer, fixedBody, movingBody, partContact.faces) : null;
 
   function place() {
     if (isMesh) {
