@@ -78,6 +78,34 @@ function scoreCard(run, state) {
   return card;
 }
 
+const STAMP = 14;  // CSS pixels
+
+/** A point of the funnel; quality classes differ in shape as well as in colour. */
+function stamp(level, size, colour, scale) {
+  const canvas = new OffscreenCanvas(Math.ceil(STAMP * scale), Math.ceil(STAMP * scale));
+  const context = canvas.getContext('2d', { willReadFrequently: true });
+  context.scale(canvas.width / STAMP, canvas.height / STAMP);
+  context.translate(STAMP / 2, STAMP / 2);
+  context.fillStyle = colour;
+  context.beginPath();
+  if (level === 1) {
+    context.moveTo(0, -size - 1);
+    context.lineTo(size + 0.6, size);
+    context.lineTo(-size - 0.6, size);
+  } else if (level === 2) {
+    context.rect(-size, -size, 2 * size, 2 * size);
+  } else if (level === 3) {
+    context.moveTo(0, -size - 1.6);
+    context.lineTo(size + 1.6, 0);
+    context.lineTo(0, size + 1.6);
+    context.lineTo(-size - 1.6, 0);
+  } else {
+    context.arc(0, 0, size, 0, 2 * Math.PI);
+  }
+  context.fill();
+  return canvas;
+}
+
 function funnelCard(run, state) {
   const usable = REFERENCE_COLUMNS.filter((key) => run.column[key]);
   const others = run.columns.filter((c) => !['rank', 'score', 'cluster'].includes(c.key) && !c.classes && !usable.includes(c.key) && c.high > c.low).map((c) => c.key);
@@ -108,7 +136,7 @@ function funnelCard(run, state) {
   let layerKey = '';
   function paintPoints(width, height, scale, font) {
     layer = new OffscreenCanvas(Math.round(width * scale), Math.round(height * scale));
-    const context = layer.getContext('2d');
+    const context = layer.getContext('2d', { willReadFrequently: true });  // painted by the processor: many small marks
     context.scale(scale, scale);
     context.font = font;
     plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'Score' });
@@ -116,34 +144,19 @@ function funnelCard(run, state) {
     const size = run.count > 20000 ? 1.5 : run.count > 2000 ? 2.2 : 2.8;
     context.globalAlpha = run.count > 5000 ? 0.55 : 0.75;
     classes.forEach((name, level) => {
-      context.fillStyle = name ? themeColor(name) : themeColor('fixed');
       const larger = level > 0 ? size + 0.8 : size;
-      context.beginPath();
+      // Stamped one by one: a single path of thousands that overlap takes browsers seconds.
+      const plain = level === 0 && size < 2;
+      context.fillStyle = name ? themeColor(name) : themeColor('fixed');
+      const mark = stamp(level, larger, name ? themeColor(name) : themeColor('fixed'), scale);
       for (let i = run.count - 1; i >= 0; --i) {
         if (capri && (capri.values[i] || 0) !== level) continue;
         const x = plot.toX(column.values[i]);
         const y = plot.toY(score.values[i]);
         if (!Number.isFinite(x)) continue;
-        // Classes differ in shape as well as in colour.
-        if (level === 1) {
-          context.moveTo(x, y - larger - 1);
-          context.lineTo(x + larger + 0.6, y + larger);
-          context.lineTo(x - larger - 0.6, y + larger);
-        } else if (level === 2) {
-          context.rect(x - larger, y - larger, 2 * larger, 2 * larger);
-        } else if (level === 3) {
-          context.moveTo(x, y - larger - 1.6);
-          context.lineTo(x + larger + 1.6, y);
-          context.lineTo(x, y + larger + 1.6);
-          context.lineTo(x - larger - 1.6, y);
-        } else if (size < 2) {
-          context.rect(x - 0.8, y - 0.8, 1.6, 1.6);
-        } else {
-          context.moveTo(x + larger, y);
-          context.arc(x, y, larger, 0, 2 * Math.PI);
-        }
+        if (plain) context.fillRect(x - 0.8, y - 0.8, 1.6, 1.6);
+        else context.drawImage(mark, x - STAMP / 2, y - STAMP / 2, STAMP, STAMP);
       }
-      context.fill();
     });
     context.globalAlpha = 1;
   }
