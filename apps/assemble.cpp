@@ -27,7 +27,7 @@
 namespace mortise::app {
 namespace {
 
-struct Options {
+struct AssembleFlags {
   CommonOptions common;
   std::string fixed, moving, path, goal, mates, pair, output, plot, write_path;
   double rate = 1000.0;
@@ -63,7 +63,7 @@ struct Session {
   TriangleMesh moving;
 };
 
-Session make_session(const Options& options) {
+Session make_session(const AssembleFlags& options) {
   const auto start = std::chrono::steady_clock::now();
   const ReadPartResult fixed = read_part(options.fixed);
   ReadPartResult moving = read_part(options.moving);
@@ -168,7 +168,7 @@ void write_plot(const std::string& file_name, const Loop& loop, double rate) {
 }
 
 // Where the part belongs: of a truth file with its symmetries, of a table of poses the first.
-TrueMate goal_of(const Options& options) {
+TrueMate goal_of(const AssembleFlags& options) {
   if (!options.mates.empty())
     return find_true_mate(read_true_mates(options.mates),
                           std::filesystem::path(options.fixed).stem().string(),
@@ -180,7 +180,7 @@ TrueMate goal_of(const Options& options) {
   return mate;
 }
 
-std::vector<RigidMotion> path_of(const Options& options, const AssemblySession& session) {
+std::vector<RigidMotion> path_of(const AssembleFlags& options, const AssemblySession& session) {
   if (!options.path.empty()) return read_pose_csv(options.path);
   HandPathOptions hand = options.hand;
   hand.rate = options.rate;
@@ -188,7 +188,7 @@ std::vector<RigidMotion> path_of(const Options& options, const AssemblySession& 
                    session.moving_radius(), hand);
 }
 
-void follow_path(const Options& options, const Session& made) {
+void follow_path(const AssembleFlags& options, const Session& made) {
   const std::vector<RigidMotion> path = path_of(options, made.session);
   if (!options.write_path.empty()) write_pose_csv(options.write_path, path);
   const Loop loop = run_loop(made.session, path, options.rate);
@@ -230,7 +230,7 @@ void follow_path(const Options& options, const Session& made) {
 
 // Random starts around a goal, let go; home is within 2% of the radius and 2 degrees of where the
 // mate rests, or of that moved by the symmetries that the truth file records.
-void let_go(const Options& options, const Session& made) {
+void let_go(const AssembleFlags& options, const Session& made) {
   TrueMate truth = goal_of(options);
   const AssemblySession& session = made.session;
   const RigidMotion goal = truth.moving_in_fixed;
@@ -283,7 +283,7 @@ void let_go(const Options& options, const Session& made) {
   std::printf("starts  %d of %d end in it\n", home, options.free_starts);
 }
 
-void run(Options options) {
+void run(AssembleFlags options) {
   options.field.threads = options.assembly.threads = options.common.threads;
   if (int{options.path.empty()} + int{options.goal.empty()} + int{options.mates.empty()} != 2)
     throw InputError("assemble: give one of --path, --goal and --mates");
@@ -299,7 +299,7 @@ void run(Options options) {
 }  // namespace
 
 void add_assemble(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AssembleFlags>();
   CLI::App* command = program.add_subcommand(
       "assemble", "Energy, force and torque of two parts along a path at haptic rate");
   command->add_option("fixed", options->fixed, "Part (mesh, STEP)")->required();

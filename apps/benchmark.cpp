@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -18,6 +17,7 @@
 #include <thread>
 
 #include "benchmark_table.hpp"
+#include "clock.hpp"
 #include "commands.hpp"
 #include "docking_job.hpp"
 #include "mortise/core/errors.hpp"
@@ -31,10 +31,9 @@ namespace mortise::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BenchmarkFlags {
   CommonOptions common;
   std::string table;
   std::string output;
@@ -78,7 +77,7 @@ std::pair<std::size_t, std::size_t> parse_fold(const std::string& text) {
   return {i - 1, k};
 }
 
-std::vector<BenchmarkPair> chosen_pairs(const Options& options) {
+std::vector<BenchmarkPair> chosen_pairs(const BenchmarkFlags& options) {
   const std::vector<BenchmarkPair> all = read_benchmark_pairs(options.table);
   for (const std::string& name : options.subset)
     if (std::none_of(all.begin(), all.end(), [&](const auto& p) { return p.name == name; }))
@@ -102,7 +101,7 @@ ResultRow row_of(const BenchmarkPair& pair) {
 }
 
 // Docks and measures one pair. @throws Interrupted
-ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const Options& options,
+ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const BenchmarkFlags& options,
                     const std::string& progress_label) {
   const auto begin = Clock::now();
   settings.random_start = pair_seed(options.seed, pair.name);
@@ -118,7 +117,7 @@ ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const Opti
            watch);
   Run& run = result.run;
   if (!run.complete) throw Interrupted(pair.name);
-  run.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  run.seconds = seconds_since(begin);
 
   const ReferenceComplex reference(
       fixed.molecule, moving.molecule,
@@ -159,7 +158,8 @@ struct Worker {
 };
 
 std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockSettings& settings,
-                                      const Options& options, const std::string& progress_label) {
+                                      const BenchmarkFlags& options,
+                                      const std::string& progress_label) {
   int ends[2];
   if (pipe(ends) != 0)
     throw std::runtime_error(std::string("benchmark: pipe: ") + std::strerror(errno));
@@ -213,7 +213,7 @@ std::optional<ResultRow> collect(const Worker& worker, int status, const rusage&
   return row;
 }
 
-void print_row(const ResultRow& row, const Options& options) {
+void print_row(const ResultRow& row, const BenchmarkFlags& options) {
   if (options.common.quiet) return;
   if (!row["error"].empty())
     std::fprintf(stderr, "mortise: warning: pair %s failed: %s\n", row["name"].c_str(),
@@ -233,7 +233,7 @@ void print_row(const ResultRow& row, const Options& options) {
 // Docks the pairs, at most options.jobs at a time, and gives each row to `keep` as it comes. On
 // Ctrl-C the pairs at work are dropped.
 void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockSettings& settings,
-                const Options& options, const std::function<void(const ResultRow&)>& keep) {
+                const BenchmarkFlags& options, const std::function<void(const ResultRow&)>& keep) {
   std::map<pid_t, Worker> workers;
   std::size_t next = 0;
   bool told = false;
@@ -301,7 +301,7 @@ Json success_json(const std::vector<SuccessCount>& counts) {
   return list;
 }
 
-void execute(Options options) {
+void execute(BenchmarkFlags options) {
   DockSettings settings = resolve(options.arguments);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   settings.options.threads = options.common.threads;
@@ -372,7 +372,7 @@ void execute(Options options) {
 }  // namespace
 
 void add_benchmark(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchmarkFlags>();
   CLI::App& command = *program.add_subcommand(
       "benchmark", "Dock a table of known complexes from random starts, count successes");
   command

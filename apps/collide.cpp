@@ -2,12 +2,12 @@
 // mortise collide: gap value, certified answer and gradient at each pose of a table.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
 #include <memory>
 
+#include "clock.hpp"
 #include "commands.hpp"
 #include "mortise/collision/collider.hpp"
 #include "mortise/core/errors.hpp"
@@ -20,9 +20,7 @@
 namespace mortise::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Options {
+struct CollideFlags {
   CommonOptions common;
   std::string fixed, moving, poses, output;
   ColliderOptions collider;
@@ -42,7 +40,7 @@ bool is_molecule(const std::string& text) {
   return false;
 }
 
-CollisionBody read_body(const std::string& text, const Options& options) {
+CollisionBody read_body(const std::string& text, const CollideFlags& options) {
   if (is_molecule(text)) {
     const ReadMoleculeResult read = read_molecule(parse_molecule_spec(text));
     return {to_knots(read.molecule, {.radius = 0.0, .propensity = 0.0}), 0.0};
@@ -73,7 +71,7 @@ void write_csv(const std::string& path, const std::vector<Collision>& answers) {
   if (!file) throw FileError(path, "cannot be written");
 }
 
-void run(Options options) {
+void run(CollideFlags options) {
   options.collider.threads = options.body.threads = options.common.threads;
   options.collider.with_gap = true;
   const std::vector<RigidMotion> poses = read_pose_csv(options.poses);
@@ -83,7 +81,7 @@ void run(Options options) {
   std::vector<Collision> answers(poses.size());
   const Clock::time_point start = Clock::now();
   collider.evaluate(poses, answers, options.common.threads);
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = seconds_since(start);
   if (!options.output.empty()) write_csv(options.output, answers);
   const auto count = [&](Contact contact) {
     return std::count_if(answers.begin(), answers.end(),
@@ -122,7 +120,7 @@ void run(Options options) {
 }  // namespace
 
 void add_collide(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CollideFlags>();
   CLI::App* command = program.add_subcommand(
       "collide",
       "Say for each pose of a table whether two bodies collide, with gap value and gradient");

@@ -2,11 +2,11 @@
 // mortise decompose: a part as few balls, with the error this makes.
 #include "mortise/parts/decompose.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
 
+#include "clock.hpp"
 #include "commands.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/ball_mesh.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct DecomposeFlags {
   CommonOptions common;
   std::string part, output, ply;
   std::string method = "skeletal", reduction = "cover", weights = "unit";
@@ -51,7 +51,7 @@ std::vector<std::string> names(const std::map<std::string, Value>& values) {
   return result;
 }
 
-Json resolved(const Options& options) {
+Json resolved(const DecomposeFlags& options) {
   return {{"method", options.method},
           {"reduction", options.reduction},
           {"grid", options.decompose.grid},
@@ -63,7 +63,7 @@ Json resolved(const Options& options) {
           {"measure", options.measure}};
 }
 
-void print(const Options& options, const Json& figures) {
+void print(const DecomposeFlags& options, const Json& figures) {
   const auto number = [&](const char* name) { return figures[name].get<double>(); };
   const auto count = [&](const char* name) { return figures[name].get<long>(); };
   std::printf("balls      %ld of %ld inner ones kept, in a tree of %ld\n", count("n3"), count("n1"),
@@ -83,8 +83,7 @@ void print(const Options& options, const Json& figures) {
               options.ply.empty() ? "" : (", " + options.ply).c_str());
 }
 
-void run(Options options) {
-  using Clock = std::chrono::steady_clock;
+void run(DecomposeFlags options) {
   options.decompose.method = kMethods.at(options.method);
   options.decompose.reduction = kReductions.at(options.reduction);
   options.decompose.weights = kWeights.at(options.weights);
@@ -99,7 +98,7 @@ void run(Options options) {
   const MeshSolid solid(part.mesh, {.threads = options.common.threads});
   const Decomposition result = decompose(solid, options.decompose);
   const SphereTree tree = sphere_tree(result.knots.points, {.arity = options.arity});
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = seconds_since(start);
   if (interrupted()) throw Interrupted("nothing was written");
 
   Json figures = {{"n1", result.inner.cols()},   {"n3", result.knots.size()},
@@ -140,7 +139,7 @@ void run(Options options) {
 }  // namespace
 
 void add_decompose(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DecomposeFlags>();
   CLI::App& command = *program.add_subcommand(
       "decompose", "Turn a part into few balls and say how far they are from it");
   command.add_option("part", options->part, "STL, OBJ, PLY, OFF or STEP file")->required();

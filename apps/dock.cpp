@@ -12,13 +12,13 @@
 namespace mortise::app {
 namespace {
 
-struct Options : SearchOptionsCommon {
+struct DockFlags : SearchOptionsCommon {
   DockArguments arguments;
 };
 
 class DockCommand : public SearchCommand {
  public:
-  explicit DockCommand(const Options& options) : options_(options) {}
+  explicit DockCommand(const DockFlags& options) : options_(options) {}
 
   [[nodiscard]] std::string name() const override { return "dock"; }
   [[nodiscard]] std::string label() const override { return "docking"; }
@@ -85,7 +85,7 @@ class DockCommand : public SearchCommand {
   }
 
  private:
-  const Options& options_;
+  const DockFlags& options_;
   DockSettings settings_;
   DockBody fixed_, moving_;
 };
@@ -93,7 +93,7 @@ class DockCommand : public SearchCommand {
 }  // namespace
 
 void add_dock(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DockFlags>();
   CLI::App& command = *program.add_subcommand(
       "dock", "Search all placements of one molecule against another, write ranked poses");
   command.add_option("FIXED", options->fixed,

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct EvaluateFlags {
   CommonOptions common;
   std::string run;
   std::string reference_fixed;
@@ -68,7 +68,7 @@ void print_summary(const Run& run, const ReferenceSummary& reference,
   std::printf("\n%s", pose_table(run, 10).c_str());
 }
 
-void execute(const Options& options) {
+void execute(const EvaluateFlags& options) {
   Run run = read_run(options.run);
   if (run.kind == "mate") {
     if (options.reference_pose.empty())
@@ -120,7 +120,7 @@ void execute(const Options& options) {
 }  // namespace
 
 void add_evaluate(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateFlags>();
   CLI::App& command = *program.add_subcommand(
       "evaluate", "Measure a run's poses against the known answer, add the metrics to the run");
   command.add_option("run", options->run, "Run file; its metrics are added or replaced")

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportFlags {
   CommonOptions common;
   std::string run;
   std::string format;
@@ -49,8 +49,8 @@ std::string with_rank(const std::string& path, std::size_t rank) {
 }
 
 // A file of parts holds one placement: several go to several files.
-std::vector<std::string> export_parts(const Run& run, ExportFormat format, const Options& options,
-                                      const std::string& output) {
+std::vector<std::string> export_parts(const Run& run, ExportFormat format,
+                                      const ExportFlags& options, const std::string& output) {
   const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
   if (output == "-" && poses.size() > 1)
     throw InputError("export: stdout takes one placement of parts; choose it by --pose");
@@ -74,7 +74,7 @@ std::vector<std::string> export_parts(const Run& run, ExportFormat format, const
   return files;
 }
 
-std::string export_text(const Run& run, ExportFormat format, const Options& options) {
+std::string export_text(const Run& run, ExportFormat format, const ExportFlags& options) {
   switch (format) {
     case ExportFormat::kCsv:
       return export_csv(run, options.choice);
@@ -106,7 +106,8 @@ std::string export_text(const Run& run, ExportFormat format, const Options& opti
                                       : export_mmcif(run, fixed, moving, options.choice);
 }
 
-void refuse_to_overwrite_inputs(const std::string& output, const Run& run, const Options& options) {
+void refuse_to_overwrite_inputs(const std::string& output, const Run& run,
+                                const ExportFlags& options) {
   for (const std::string& input :
        {options.run, run.fixed.path, run.moving.path, options.fixed_path, options.moving_path,
         (fs::path(run.provenance.working_directory) / run.fixed.path).string(),
@@ -117,7 +118,7 @@ void refuse_to_overwrite_inputs(const std::string& output, const Run& run, const
   }
 }
 
-void execute(const Options& options) {
+void execute(const ExportFlags& options) {
   const ExportFormat format = parse_export_format(options.format);
   const bool to_stdout = options.output == "-";
   if (to_stdout && options.common.json)
@@ -158,7 +159,7 @@ void execute(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportFlags>();
   CLI::App& command = *program.add_subcommand(
       "export", "Write a run's poses as PDB, mmCIF, CSV, JSON, ZDOCK .out, or as placed parts");
   command.add_option("run", options->run, "Run file")->required();

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct InfoFlags {
   CommonOptions common;
   std::string file;
 };
@@ -257,7 +257,7 @@ void print_structure(const std::string& file, const Json& all) {
   }
 }
 
-void execute(const Options& options) {
+void execute(const InfoFlags& options) {
   const Json all = describe(options.file);
   if (options.common.json) {
     std::printf("%s\n", all.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
@@ -271,7 +271,7 @@ void execute(const Options& options) {
 }  // namespace
 
 void add_info(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoFlags>();
   CLI::App& command =
       *program.add_subcommand("info", "Show what a run, knots or structure file holds");
   command

@@ -12,13 +12,13 @@
 namespace mortise::app {
 namespace {
 
-struct Options : SearchOptionsCommon {
+struct MateFlags : SearchOptionsCommon {
   MateArguments arguments;
 };
 
 class MateCommand : public SearchCommand {
  public:
-  explicit MateCommand(const Options& options) : options_(options) {}
+  explicit MateCommand(const MateFlags& options) : options_(options) {}
 
   [[nodiscard]] std::string name() const override { return "mate"; }
   [[nodiscard]] std::string label() const override { return "mating"; }
@@ -80,7 +80,7 @@ class MateCommand : public SearchCommand {
   }
 
  private:
-  const Options& options_;
+  const MateFlags& options_;
   MateSettings settings_;
   MateBody fixed_, moving_;
 };
@@ -88,7 +88,7 @@ class MateCommand : public SearchCommand {
 }  // namespace
 
 void add_mate(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MateFlags>();
   CLI::App& command =
       *program.add_subcommand("mate", "Find how two parts fit together, write ranked placements");
   command.add_option("FIXED", options->fixed, "Fixed part: STL, OBJ, PLY, OFF or STEP file");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportFlags {
   CommonOptions common;
   std::string run;
   std::string output;
@@ -29,7 +29,7 @@ std::string default_output(const std::string& run) {
   return (path.parent_path() / (path.stem().string() + "_report")).string();
 }
 
-void execute(Options options) {
+void execute(ReportFlags options) {
   const Run run = read_run(options.run);
   const std::string output = options.output.empty() ? default_output(options.run) : options.output;
   const fs::path beside = fs::path(options.run).parent_path();
@@ -59,7 +59,7 @@ void execute(Options options) {
 }  // namespace
 
 void add_report(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportFlags>();
   CLI::App& command = *program.add_subcommand(
       "report", "Make a page that shows a run's ranked poses, and their files");
   command.add_option("run", options->run, "Run file")->required();

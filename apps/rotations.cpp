@@ -15,7 +15,7 @@
 namespace mortise::app {
 namespace {
 
-struct Options {
+struct RotationsFlags {
   CommonOptions common;
   Eigen::Index count = 0;
   std::string method = rotation_method_name(RotationMethod::kAuto);
@@ -34,7 +34,7 @@ void write_csv(const std::string& path, const Eigen::Matrix4Xd& quaternions) {
   if (!file) throw FileError(path, "cannot be written");
 }
 
-void run(const Options& options) {
+void run(const RotationsFlags& options) {
   const RotationSet set =
       rotation_set(options.count, rotation_method(options.method), options.common.threads);
   const Coverage coverage = measure_coverage(set.quaternions, options.common.threads);
@@ -68,7 +68,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_rotations(CLI::App& program) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RotationsFlags>();
   CLI::App* command = program.add_subcommand(
       "rotations", "Make a set of rotations and say how well it covers all of them");
   command->add_option("--count", options->count, "How many rotations")

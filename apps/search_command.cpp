@@ -2,11 +2,11 @@
 // The course of a search command.
 #include "search_command.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
 
+#include "clock.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/store/atomic_file.hpp"
@@ -16,12 +16,7 @@ namespace mortise::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void refuse_to_overwrite_input(const std::string& output, const std::string& input) {
   std::error_code error;

@@ -6,14 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "clock.hpp"
+
 namespace mortise::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 Checkpoint checkpoint_of(const std::vector<Candidate>& candidates) {
   Checkpoint result;

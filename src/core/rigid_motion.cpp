@@ -3,8 +3,21 @@
 #include "mortise/core/rigid_motion.hpp"
 
 #include <cmath>
+#include <string>
+
+#include "mortise/core/errors.hpp"
 
 namespace mortise {
+
+void check_motion(const RigidMotion& motion, const char* who) {
+  const double norm = motion.rotation.norm();
+  // Written so that NaN fails too.
+  if (!(std::abs(norm - 1.0) <= 1e-6) || !motion.translation.allFinite())
+    throw InputError(
+        std::string(who) + ": expected a finite motion with a unit quaternion, got norm " +
+        std::to_string(norm) + " and translation " + std::to_string(motion.translation.x()) + ", " +
+        std::to_string(motion.translation.y()) + ", " + std::to_string(motion.translation.z()));
+}
 
 Eigen::Quaterniond canonical(const Eigen::Quaterniond& q) {
   Eigen::Quaterniond unit = q.normalized();

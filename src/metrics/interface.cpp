@@ -95,15 +95,6 @@ void check(const InterfaceOptions& options) {
   if (options.complementarity) detail::check_complementarity_options(options.sc);
 }
 
-void check_motion(const RigidMotion& motion) {
-  const double norm = motion.rotation.norm();
-  if (!(std::abs(norm - 1.0) <= 1e-6) || !motion.translation.allFinite())
-    throw InputError(
-        "MolecularInterface::describe: expected a finite motion with a unit quaternion, got norm " +
-        std::to_string(norm) + " and translation " + std::to_string(motion.translation.x()) + ", " +
-        std::to_string(motion.translation.y()) + ", " + std::to_string(motion.translation.z()));
-}
-
 }  // namespace
 
 struct MolecularInterface::Impl {
@@ -180,7 +171,7 @@ MolecularInterface::MolecularInterface(const Molecule& fixed, const Molecule& mo
 }
 
 InterfaceDescription MolecularInterface::describe(const RigidMotion& moving_in_fixed) const {
-  check_motion(moving_in_fixed);
+  check_motion(moving_in_fixed, "MolecularInterface::describe");
   const Impl& impl = *impl_;
   const Body &fixed = impl.fixed, &moving = impl.moving;
   const Eigen::Matrix3Xd moved = moving_in_fixed * moving.positions;

@@ -31,16 +31,16 @@ using detail::PairedMoments;
 using detail::PolymerResidue;
 
 // The residues of one body on both sides; matched ones as positions in these lists.
-struct Body {
+struct MatchedBody {
   std::vector<PolymerResidue> model;
   std::vector<PolymerResidue> reference;
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // (in model, in reference)
   ResidueMatch match;
 };
 
-Body make_body(const Molecule& model, const Molecule& reference,
-               const MatchResiduesOptions& options) {
-  Body body;
+MatchedBody match_body(const Molecule& model, const Molecule& reference,
+                       const MatchResiduesOptions& options) {
+  MatchedBody body;
   body.match = match_residues(model, reference, options);
   body.model = detail::polymer_residues(model);
   body.reference = detail::polymer_residues(reference);
@@ -69,7 +69,7 @@ Eigen::Matrix3Xd positions(const PolymerResidue& residue) {
 
 // The backbone atoms that both sides of the body have, in matched reference residues r with
 // wanted[r] != 0.
-std::pair<Eigen::Matrix3Xd, Eigen::Matrix3Xd> paired_backbone(const Body& body,
+std::pair<Eigen::Matrix3Xd, Eigen::Matrix3Xd> paired_backbone(const MatchedBody& body,
                                                               const std::vector<char>& wanted) {
   std::vector<Eigen::Vector3d> model;
   std::vector<Eigen::Vector3d> reference;
@@ -92,7 +92,7 @@ struct Interface {
   std::set<std::pair<std::int32_t, std::int32_t>> contacts;
 };
 
-Interface find_interface(const Body& fixed, const Body& moving,
+Interface find_interface(const MatchedBody& fixed, const MatchedBody& moving,
                          const ReferenceComplexOptions& options) {
   Interface out;
   out.fixed.assign(fixed.reference.size(), 0);
@@ -121,7 +121,7 @@ Interface find_interface(const Body& fixed, const Body& moving,
   return out;
 }
 
-std::vector<Eigen::Matrix3Xd> matched_residue_atoms(const Body& body) {
+std::vector<Eigen::Matrix3Xd> matched_residue_atoms(const MatchedBody& body) {
   std::vector<Eigen::Matrix3Xd> out;
   for (const auto& pair : body.pairs) out.push_back(positions(body.model[pair.first]));
   return out;
@@ -130,9 +130,9 @@ std::vector<Eigen::Matrix3Xd> matched_residue_atoms(const Body& body) {
 // Native contacts as positions in the two bodies' lists of pairs; those of unmatched residues drop
 // out.
 std::vector<std::pair<std::int32_t, std::int32_t>> matched_contacts(const Interface& interface,
-                                                                    const Body& fixed,
-                                                                    const Body& moving) {
-  const auto places = [](const Body& body) {
+                                                                    const MatchedBody& fixed,
+                                                                    const MatchedBody& moving) {
+  const auto places = [](const MatchedBody& body) {
     std::vector<std::int32_t> out(body.reference.size(), -1);
     for (std::size_t k = 0; k < body.pairs.size(); ++k)
       out[body.pairs[k].second] = static_cast<std::int32_t>(k);
@@ -149,15 +149,6 @@ std::vector<std::pair<std::int32_t, std::int32_t>> matched_contacts(const Interf
 
 std::string named(const Molecule& molecule) {
   return molecule.path.empty() ? "(unnamed)" : molecule.path;
-}
-
-void check_motion(const RigidMotion& motion) {
-  const double norm = motion.rotation.norm();
-  if (!(std::abs(norm - 1.0) <= 1e-6) || !motion.translation.allFinite())
-    throw InputError(
-        "ReferenceComplex::evaluate: expected a finite motion with a unit quaternion, got norm " +
-        std::to_string(norm) + " and translation " + std::to_string(motion.translation.x()) + ", " +
-        std::to_string(motion.translation.y()) + ", " + std::to_string(motion.translation.z()));
 }
 
 }  // namespace
@@ -180,8 +171,8 @@ ReferenceComplex::ReferenceComplex(const Molecule& fixed, const Molecule& moving
     if (!(cutoff > 0.0 && std::isfinite(cutoff)))
       throw InputError("ReferenceComplex: cutoffs must be > 0 and finite, got " +
                        std::to_string(cutoff));
-  const Body fixed_body = make_body(fixed, reference_fixed, options.match);
-  const Body moving_body = make_body(moving, reference_moving, options.match);
+  const MatchedBody fixed_body = match_body(fixed, reference_fixed, options.match);
+  const MatchedBody moving_body = match_body(moving, reference_moving, options.match);
   const Interface interface = find_interface(fixed_body, moving_body, options);
   if (interface.contacts.empty())
     throw InputError("ReferenceComplex: expected " + named(reference_fixed) + " and " +
@@ -209,7 +200,7 @@ ReferenceComplex::ReferenceComplex(const Molecule& fixed, const Molecule& moving
           "ReferenceComplex: expected backbone atoms of the reference's interface in " +
           named(*molecule) + ", found none");
 
-  const auto backbone = [](const Body& body) {
+  const auto backbone = [](const MatchedBody& body) {
     return paired_backbone(body, std::vector<char>(body.reference.size(), 1));
   };
   const auto [fixed_model, fixed_reference] = backbone(fixed_body);
@@ -234,7 +225,7 @@ ReferenceComplex::ReferenceComplex(const Molecule& fixed, const Molecule& moving
 }
 
 ComplexMetrics ReferenceComplex::evaluate(const RigidMotion& moving_in_fixed) const {
-  check_motion(moving_in_fixed);
+  check_motion(moving_in_fixed, "ReferenceComplex::evaluate");
   const Impl& impl = *impl_;
   const Eigen::Matrix3d R = moving_in_fixed.rotation.toRotationMatrix();
   const Eigen::Vector3d& t = moving_in_fixed.translation;

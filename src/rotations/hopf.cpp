@@ -13,8 +13,6 @@
 namespace mortise {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Direction {
   double z, longitude;
 };
@@ -32,8 +30,8 @@ std::vector<Direction> healpix_centres(Eigen::Index n) {
     const Eigen::Index pixels = cap ? 4 * from_pole : 4 * n;
     const double shift = cap || (from_pole - n) % 2 == 0 ? 0.5 : 0.0;  // of every second ring
     for (Eigen::Index j = 0; j < pixels; ++j)
-      centres.push_back(
-          {z, 2.0 * kPi * (static_cast<double>(j) + shift) / static_cast<double>(pixels)});
+      centres.push_back({z, 2.0 * std::numbers::pi * (static_cast<double>(j) + shift) /
+                                static_cast<double>(pixels)});
   }
   return centres;
 }
@@ -81,7 +79,7 @@ Eigen::Matrix4Xd hopf_rotations(Eigen::Index count) {
     const Eigen::Quaterniond tilt(c, -s * std::sin(direction.longitude),
                                   s * std::cos(direction.longitude), 0.0);
     for (Eigen::Index k = 0; k < turns; ++k) {
-      const double half = kPi * static_cast<double>(k) / static_cast<double>(turns);
+      const double half = std::numbers::pi * static_cast<double>(k) / static_cast<double>(turns);
       // First the turn about z, then the least rotation that carries z to the direction.
       const Eigen::Quaterniond turn(std::cos(half), 0.0, 0.0, std::sin(half));
       const Eigen::Quaterniond q = canonical(tilt * turn);

@@ -107,7 +107,7 @@ void Docking::Impl::make_maps(const Molecule& fixed, const Channel& shape) {
     maps.emplace(points, potential, map_options);
     return;
   }
-  const RadialKernel kernel =
+  const TabulatedKernel kernel =
       shape_kernel(shape, options.radius, options.radius, {.cutoff = options.search.cutoff});
   // The channel's weights are i w, so that a pair counts -w w'.
   maps.emplace(points, potential, fixed_knots.points.topRows<3>(),

@@ -37,7 +37,7 @@ ScoreMaps::ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential
 
 ScoreMaps::ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential,
                      const Eigen::Matrix3Xd& shape_points, const Eigen::VectorXd& shape_weights,
-                     const RadialKernel& shape_kernel, const ScoreMapsOptions& options)
+                     const TabulatedKernel& shape_kernel, const ScoreMapsOptions& options)
     : spacing_(options.spacing), types_(static_cast<int>(potential.near.rows())), has_shape_(true) {
   check_points(fixed, potential.near.rows(), "fixed");
   if (shape_points.cols() != shape_weights.size() || shape_points.cols() == 0)
@@ -122,7 +122,7 @@ void ScoreMaps::fill_contacts(const TypedPoints& fixed, const ContactPotential& 
 }
 
 void ScoreMaps::fill_shape(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
-                           const RadialKernel& kernel, int threads) {
+                           const TabulatedKernel& kernel, int threads) {
   const std::size_t plane = static_cast<std::size_t>(size_[1]) * size_[2];
   parallel_for(static_cast<std::size_t>(size_[0]), threads, [&](std::size_t i, int) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(plane));

@@ -11,15 +11,15 @@
 
 namespace mortise {
 
-double RadialKernel::operator()(double d_sq) const {
+double TabulatedKernel::operator()(double d_sq) const {
   const double at = d_sq / (range * range) * static_cast<double>(values.size() - 1);
   if (!(at < static_cast<double>(values.size() - 1))) return 0.0;
   const auto i = static_cast<std::size_t>(at);
   return values[i] + (at - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-RadialKernel shape_kernel(const Channel& channel, double fixed_radius, double moving_radius,
-                          const LowPass& low_pass) {
+TabulatedKernel shape_kernel(const Channel& channel, double fixed_radius, double moving_radius,
+                             const LowPass& low_pass) {
   if (!(low_pass.cutoff > 0.0) || !std::isfinite(low_pass.cutoff))
     throw InputError("shape kernel: the low-pass' cutoff must be > 0 and finite, got " +
                      std::to_string(low_pass.cutoff));
@@ -39,7 +39,7 @@ RadialKernel shape_kernel(const Channel& channel, double fixed_radius, double mo
                 channel.moving_transform(k, moving_radius) * low_pass(k) * 4.0 * std::numbers::pi *
                 k * k * step;
   }
-  RadialKernel kernel{channel.range + 1.15 / low_pass.cutoff, std::vector<double>(kEntries)};
+  TabulatedKernel kernel{channel.range + 1.15 / low_pass.cutoff, std::vector<double>(kEntries)};
   const double taper = kernel.range - 0.5 / low_pass.cutoff;
   for (int i = 0; i < kEntries; ++i) {
     const double d = kernel.range * std::sqrt(i / (kEntries - 1.0));

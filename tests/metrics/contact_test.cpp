@@ -15,9 +15,9 @@
 namespace mortise {
 namespace {
 
-using testing::mortise_block;
-using testing::tenon_plate;
 using testing_bodies::random_motion;
+using testing_parts::mortise_block;
+using testing_parts::tenon_plate;
 
 class Ball : public Solid {
  public:
@@ -107,9 +107,9 @@ TEST(Contact, OfATenonInItsMortiseByHand) {
 
 TEST(Contact, OfPartsThatHoldEachOtherIsBlocked) {
   // A bar through a closed tunnel whose ends are walled up: no way out.
-  const MatePart box = testing::voxel_part(
+  const MatePart box = testing_parts::voxel_part(
       5, [](int i, int j, int k) { return !(i == 2 && j == 2 && k >= 1 && k < 4); });
-  const MatePart bar = testing::voxel_part(
+  const MatePart bar = testing_parts::voxel_part(
       5, [](int i, int j, int k) { return i == 2 && j == 2 && k >= 1 && k < 4; });
   const ContactReport report = measure_contact(box.mesh, *box.solid, bar.mesh, *bar.solid, {});
   EXPECT_NEAR(report.contact_area, 14.0, 0.3);

@@ -16,8 +16,6 @@
 namespace mortise {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double area(const SurfaceDots& dots, SurfacePatch patch) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < dots.size(); ++i)
@@ -38,8 +36,8 @@ TEST(MolecularSurface, OneBall) {
   Eigen::Matrix3Xd x(3, 1);
   x << 1, 2, 3;
   const SurfaceDots dots = molecular_surface(x, Eigen::VectorXd::Constant(1, 1.9));
-  EXPECT_NEAR(dots.areas.sum(), 4.0 * kPi * 1.9 * 1.9, 1e-9);
-  EXPECT_EQ(dots.size(), std::lround(15.0 * 4.0 * kPi * 1.9 * 1.9));
+  EXPECT_NEAR(dots.areas.sum(), 4.0 * std::numbers::pi * 1.9 * 1.9, 1e-9);
+  EXPECT_EQ(dots.size(), std::lround(15.0 * 4.0 * std::numbers::pi * 1.9 * 1.9));
   EXPECT_LT(((dots.positions - 1.9 * dots.normals).colwise() - x.col(0)).cwiseAbs().maxCoeff(),
             1e-6);
   expect_closed(dots, 1e-3);
@@ -59,7 +57,8 @@ struct TwoBalls {
     beta = std::atan2(d - a, h);
   }
   [[nodiscard]] double contact() const {  // caps that the saddle leaves free
-    return 2.0 * kPi * (r1 * r1 * (1.0 + std::sin(alpha)) + r2 * r2 * (1.0 + std::sin(beta)));
+    return 2.0 * std::numbers::pi *
+           (r1 * r1 * (1.0 + std::sin(alpha)) + r2 * r2 * (1.0 + std::sin(beta)));
   }
   // Integral of 2 pi (h - probe cos(angle)) probe d(angle), the part across the axis left out.
   [[nodiscard]] double saddle() const {
@@ -69,7 +68,7 @@ struct TwoBalls {
       const double angle = -alpha + (alpha + beta) * (k + 0.5) / steps;
       sum += std::max(0.0, h - probe * std::cos(angle));
     }
-    return 2.0 * kPi * probe * sum * (alpha + beta) / steps;
+    return 2.0 * std::numbers::pi * probe * sum * (alpha + beta) / steps;
   }
 };
 
@@ -93,7 +92,7 @@ TEST(MolecularSurface, BallsTooFarApartAndOneWithinAnother) {
   x(0, 1) = 7.0;
   x(1, 2) = 0.4;
   const SurfaceDots dots = molecular_surface(x, Eigen::Vector3d(1.8, 1.6, 1.0));
-  EXPECT_NEAR(dots.areas.sum(), 4.0 * kPi * (1.8 * 1.8 + 1.6 * 1.6), 1e-9);
+  EXPECT_NEAR(dots.areas.sum(), 4.0 * std::numbers::pi * (1.8 * 1.8 + 1.6 * 1.6), 1e-9);
   for (const std::int32_t atom : dots.atoms) EXPECT_NE(atom, 2);
 }
 
@@ -103,7 +102,7 @@ double triangle(double a, double b, double c) {
     return std::acos((std::cos(opposite) - std::cos(s) * std::cos(t)) /
                      (std::sin(s) * std::sin(t)));
   };
-  return angle(a, b, c) + angle(b, c, a) + angle(c, a, b) - kPi;
+  return angle(a, b, c) + angle(b, c, a) + angle(c, a, b) - std::numbers::pi;
 }
 
 TEST(MolecularSurface, ThreeBallsHoldTwoTriangles) {

@@ -17,7 +17,6 @@ namespace mortise {
 namespace {
 
 using testing_bodies::random_motion;
-constexpr double kPi = std::numbers::pi;
 
 TriangleMesh box(double x, double y, double z) {
   TriangleMesh mesh;
@@ -36,7 +35,7 @@ std::vector<Symmetry> each_kind() {
   for (Symmetry& s : all) {
     s.point << 1.0, -2.0, 0.5;
     s.direction = Eigen::Vector3d(1, 2, -0.5).normalized();
-    s.to = 2.0 * kPi;
+    s.to = 2.0 * std::numbers::pi;
   }
   all[0].kind = SymmetryKind::kTurn;
   all[1].kind = SymmetryKind::kFold;
@@ -66,7 +65,8 @@ TEST(Placement, ShiftAndTurnByHand) {
   // Half a turn about the edge x = y = 0: a point moves by twice its distance from it, at most
   // 2 sqrt(5).
   const PlacementError turned = placement.error(
-      {Eigen::Quaterniond(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ())), {0, 0, 0}});
+      {Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())),
+       {0, 0, 0}});
   EXPECT_NEAR(turned.largest, 2.0 * std::sqrt(5.0) / 3.0, 1e-12);
   double sum = 0.0;
   const int n = 400;  // the same mean by brute force over the faces
@@ -127,7 +127,8 @@ TEST(Placement, IsNoWorseThanDenseSampling) {
     for (int f = 0; f < 5; ++f)
       for (int a = 0; a < 180; ++a)
         for (int b = 0; b <= 80; ++b) {
-          const double p[3] = {static_cast<double>(f), a * kPi / 90, -1.0 + 4.0 * b / 80};
+          const double p[3] = {static_cast<double>(f), a * std::numbers::pi / 90,
+                               -1.0 + 4.0 * b / 80};
           const RigidMotion there =
               compose(compose(member(kinds[1], &p[0]),
                               compose(member(kinds[0], &p[1]), member(kinds[3], &p[2]))),
@@ -168,7 +169,7 @@ TEST(TrueMates, ReadsAFileAndNamesWhatIsWrong) {
   EXPECT_EQ(mates[0].clearance, 0.005);
   EXPECT_EQ(mates[0].moving_in_fixed.translation, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(mates[0].symmetries[0].direction, Eigen::Vector3d(0, 0, 1));
-  EXPECT_NEAR(mates[0].symmetries[0].to, 2 * kPi, 1e-15);
+  EXPECT_NEAR(mates[0].symmetries[0].to, 2 * std::numbers::pi, 1e-15);
   EXPECT_EQ(find_true_mate(mates, "hole", "pin").name, "peg");
   EXPECT_EQ(find_true_mate(mates, "", "", "peg").fixed, "hole");
   EXPECT_THROW((void)find_true_mate(mates, "pin", "hole"), InputError);

@@ -78,12 +78,12 @@ double balls_beyond(const Solid& solid, const Eigen::Matrix4Xd& balls) {
   return most;
 }
 
-struct Case {
+struct SolidCase {
   std::string name;
   Shape solid;
 };
 
-std::vector<Case> cases() {
+std::vector<SolidCase> solid_cases() {
   return {{"capsule", slanted_capsule()},
           {"torus", torus()},
           {"box", box()},
@@ -96,7 +96,7 @@ constexpr std::array kMethods = {DecomposeMethod::kSkeletal, DecomposeMethod::kI
 constexpr std::array kReductions = {Reduction::kCover, Reduction::kContainment, Reduction::kNone};
 
 TEST(Decompose, Proposition1InnerBallsLieInTheSolidAndHoldEveryNode) {
-  for (const Case& c : cases())
+  for (const SolidCase& c : solid_cases())
     for (const DecomposeMethod method : kMethods) {
       SCOPED_TRACE(c.name + " method " + std::to_string(static_cast<int>(method)));
       const Decomposition d = decompose(*c.solid, {.method = method, .grid = 20, .threads = 1});
@@ -107,7 +107,7 @@ TEST(Decompose, Proposition1InnerBallsLieInTheSolidAndHoldEveryNode) {
 }
 
 TEST(Decompose, Propositions2And3KnotsAreWithinEpsilonOfTheSolid) {
-  for (const Case& c : cases())
+  for (const SolidCase& c : solid_cases())
     for (const DecomposeMethod method : kMethods)
       for (const Reduction reduction : kReductions) {
         SCOPED_TRACE(c.name + " method " + std::to_string(static_cast<int>(method)) +
@@ -232,7 +232,7 @@ TEST(Decompose, ContainmentKeepsEveryInnerBallInAKnot) {
 }
 
 TEST(Decompose, CoverNeedsFewestAndEachOfItsBalls) {
-  for (const Case& c : cases()) {
+  for (const SolidCase& c : solid_cases()) {
     SCOPED_TRACE(c.name);
     DecomposeOptions options{.grid = 24, .threads = 1};
     const Decomposition cover = decompose(*c.solid, options);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
-struct Case {
+struct MeshCase {
   std::string name;
   TriangleMesh mesh;
 };
@@ -30,7 +30,7 @@ TriangleMesh shifted(TriangleMesh mesh, const Eigen::Vector3d& by) {
   return mesh;
 }
 
-std::vector<Case> cases() {
+std::vector<MeshCase> mesh_cases() {
   TriangleMesh slivers = shapes::box({1.0, 1e-3, 20.0});
   TriangleMesh degenerate = shapes::icosphere(1.0, 3);
   degenerate.triangles.conservativeResize(3, degenerate.size() + 2);
@@ -73,7 +73,7 @@ Eigen::Matrix3Xd probes(const TriangleMesh& mesh, int count, unsigned seed) {
 double size(const TriangleMesh& mesh) { return MeshSolid(mesh).bounds().diagonal().norm(); }
 
 TEST(MeshSolid, DistanceIsThatOfCgal) {
-  for (const Case& c : cases()) {
+  for (const MeshCase& c : mesh_cases()) {
     const MeshSolid solid(c.mesh);
     const Eigen::Matrix3Xd points = probes(c.mesh, 2000, 1);
     const Eigen::VectorXd expected = reference::distance(c.mesh, points);
@@ -87,7 +87,7 @@ TEST(MeshSolid, DistanceIsThatOfCgal) {
 }
 
 TEST(MeshSolid, NearestPointLiesOnItsTriangleAtTheDistance) {
-  for (const Case& c : cases()) {
+  for (const MeshCase& c : mesh_cases()) {
     const MeshSolid solid(c.mesh);
     const Eigen::Matrix3Xd points = probes(c.mesh, 500, 2);
     const NearestPoints nearest = solid.nearest(points);
@@ -109,7 +109,7 @@ TEST(MeshSolid, NearestPointLiesOnItsTriangleAtTheDistance) {
 }
 
 TEST(MeshSolid, WindingNumberIsTheWholeSum) {
-  for (const Case& c : cases()) {
+  for (const MeshCase& c : mesh_cases()) {
     const Eigen::Matrix3Xd points = probes(c.mesh, 200, 3);
     const Eigen::VectorXd on = reference::distance(c.mesh, points);
     const double scale = size(c.mesh) + points.cwiseAbs().maxCoeff();
@@ -128,7 +128,7 @@ TEST(MeshSolid, WindingNumberIsTheWholeSum) {
 }
 
 TEST(MeshSolid, SignIsThatOfTheWholeSum) {
-  for (const Case& c : cases()) {
+  for (const MeshCase& c : mesh_cases()) {
     const MeshSolid solid(c.mesh);
     const Eigen::Matrix3Xd points = probes(c.mesh, 400, 4);
     const Eigen::VectorXd found = solid.signed_distance(points, kEverywhere);

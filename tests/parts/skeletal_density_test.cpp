@@ -45,20 +45,21 @@ Eigen::Matrix3Xd probes(const TriangleMesh& mesh, int count) {
   return points;
 }
 
-struct Case {
+struct DensityCase {
   std::string name;
   TriangleMesh mesh;
 };
 
 TEST(SkeletalDensity, IsTheFullSumToTheTolerance) {
-  const std::vector<Case> cases = {{"cube", shapes::cube()},
-                                   {"plate", shapes::box({1.0, 0.1, 3.0})},
-                                   {"ball", shapes::icosphere(1.0, 16)},
-                                   {"coarse ball", shapes::icosphere(1.0, 3)},
-                                   {"torus", shapes::torus(2.0, 0.7, 40, 24)},
-                                   {"noisy", shapes::noisy_sphere(1.0, 5000, 0.3)},
-                                   {"open", shapes::without_last(shapes::icosphere(1.0, 10), 400)}};
-  for (const Case& c : cases) {
+  const std::vector<DensityCase> cases = {
+      {"cube", shapes::cube()},
+      {"plate", shapes::box({1.0, 0.1, 3.0})},
+      {"ball", shapes::icosphere(1.0, 16)},
+      {"coarse ball", shapes::icosphere(1.0, 3)},
+      {"torus", shapes::torus(2.0, 0.7, 40, 24)},
+      {"noisy", shapes::noisy_sphere(1.0, 5000, 0.3)},
+      {"open", shapes::without_last(shapes::icosphere(1.0, 10), 400)}};
+  for (const DensityCase& c : cases) {
     const MeshSolid solid(c.mesh);
     const Eigen::Matrix3Xd points = probes(c.mesh, 16);
     const Eigen::VectorXd xi =

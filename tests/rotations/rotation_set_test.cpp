@@ -17,7 +17,7 @@
 namespace mortise {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kInDegrees = 180.0 / std::numbers::pi;
 
 // Radius of SO(3)-balls that would fill it without overlap: no covering radius is smaller.
 double ball_radius(Eigen::Index count) {
@@ -85,8 +85,8 @@ TEST(RotationSet, HopfHasEachDirectionWithAllTurns) {
     for (Eigen::Index k = 1; k < 12; ++k) {
       const Eigen::Quaterniond b = reference::column(set, first + k);
       EXPECT_LT((b * Eigen::Vector3d::UnitZ() - axis).norm(), 1e-12);
-      EXPECT_NEAR(rotation_angle(a, b) * kDegrees, 30.0 * static_cast<double>(std::min(k, 12 - k)),
-                  1e-9);
+      EXPECT_NEAR(rotation_angle(a, b) * kInDegrees,
+                  30.0 * static_cast<double>(std::min(k, 12 - k)), 1e-9);
     }
     sum += axis;
     moment += axis * axis.transpose();
@@ -115,7 +115,7 @@ TEST(RotationSet, StoredSetsAreCosetsAndCoverAsTheirTablesSay) {
 TEST(RotationSet, DockingSetOf3600CoversWithin12Degrees6) {
   const RotationSet set = rotation_set(3600);
   EXPECT_EQ(set.method, RotationMethod::kIcosahedral);
-  EXPECT_LE(covering_radius(set.quaternions) * kDegrees, 12.6);
+  EXPECT_LE(covering_radius(set.quaternions) * kInDegrees, 12.6);
 }
 
 TEST(RotationSet, LargeStoredSetsCoverAsTheirTablesSay) {
@@ -127,7 +127,7 @@ TEST(RotationSet, LargeStoredSetsCoverAsTheirTablesSay) {
     expect_canonical(set.quaternions);
     EXPECT_NEAR(set.covering_radius, covering_radius(set.quaternions), 1e-8) << count;
     if (count == 54000) {
-      EXPECT_LE(set.covering_radius * kDegrees, 5.24);
+      EXPECT_LE(set.covering_radius * kInDegrees, 5.24);
     }
   }
 }

@@ -18,9 +18,8 @@
 namespace mortise {
 namespace {
 
-using testing::mortise_block;
-using testing::tenon_plate;
-using testing_bodies::random_motion;
+using testing_parts::mortise_block;
+using testing_parts::tenon_plate;
 
 MateOptions small_options() {
   MateOptions options;
@@ -74,7 +73,7 @@ TEST(ContactEnergy, GradientMeetsCentralDifferences) {
   const ContactPair pair = contact_pair(0.25);
   std::mt19937 random(8);
   for (int i = 0; i < 6; ++i) {
-    const RigidMotion pose = random_motion(random, 0.15, 0.3);
+    const RigidMotion pose = testing_bodies::random_motion(random, 0.15, 0.3);
     const Eigen::Vector3d centre(1.0, 2.0, 3.0);
     const double length = 2.5;
     const ContactEnergy here = pair.energy(pose, 0.4, 1.5, 1.0, centre, length);
@@ -108,7 +107,7 @@ TEST(ContactEnergy, DescentIsNeverWorseAndReachesTheSeat) {
   std::mt19937 random(9);
   int seated = 0;
   for (int i = 0; i < 20; ++i) {
-    const RigidMotion start = random_motion(random, 0.1, 0.3);
+    const RigidMotion start = testing_bodies::random_motion(random, 0.1, 0.3);
     RigidMotion pose = start;
     for (const double sigma : {0.3, 0.15, 0.08}) {
       const RigidMotion next = pair.descend(pose, sigma, 2.0, 1.0, 15);
@@ -137,7 +136,7 @@ TEST(ContactFit, OfTheSeatIsItsContactArea) {
 
 TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
   std::mt19937 random(11);
-  const RigidMotion start = random_motion(random, 2.5, 10.0);
+  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
   const MatePart moving = tenon_plate(start);
   Mating mating(mortise_block(), moving, small_options());
   ASSERT_TRUE(mating.search().run());
@@ -155,7 +154,7 @@ TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
 // By the skeletal densities nearly alone: the skin's share of the score is a hundredth.
 TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
   std::mt19937 random(13);
-  const RigidMotion start = random_motion(random, 2.5, 10.0);
+  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
   MatePart fixed = mortise_block();
   MatePart moving = tenon_plate(start);
   fixed.solid = std::make_shared<MeshSolid>(fixed.mesh);
@@ -197,7 +196,7 @@ TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
 
 TEST(Mating, TurnsAboutAGivenAxisOnly) {
   std::mt19937 random(12);
-  const RigidMotion start = random_motion(random, 2.5, 10.0);
+  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
   const MatePart moving = tenon_plate(start);
   MateOptions options = small_options();
   options.rotations = 36;

@@ -29,7 +29,7 @@ struct Case {
   Knots fixed, moving;
   TypedPoints fixed_typed, moving_typed;
   ContactPotential potential = fitted_contact_potential();
-  RadialKernel kernel;
+  TabulatedKernel kernel;
 
   explicit Case(std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -91,7 +91,7 @@ TEST(ShapeKernel, WithoutALowPassIsTheOverlapOfTheDoubleSkins) {
   const Knots two{Eigen::Vector4d(0.0, 0.0, 0.0, 1.5), Eigen::VectorXcd::Ones(1)};
   const double lambda = 7.0, r0 = 1.4;
   const Channel channel = double_skin_channel(one, two, {.offset = r0, .penalty = lambda});
-  const RadialKernel kernel = shape_kernel(channel, 1.8, 1.5, {.cutoff = 6.0, .pass = 3.0});
+  const TabulatedKernel kernel = shape_kernel(channel, 1.8, 1.5, {.cutoff = 6.0, .pass = 3.0});
   double largest = 0.0;
   for (double d = 0.05; d < 8.0; d += 0.1) {
     const auto v = [&](double a, double b) { return ball_overlap_volume(a, b, d); };

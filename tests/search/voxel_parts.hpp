@@ -12,7 +12,7 @@
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/search/mate.hpp"
 
-namespace mortise::testing {
+namespace mortise::testing_parts {
 
 /// Cubes of unit side at whole coordinates [0, n), moved by a rigid motion.
 class VoxelSolid : public Solid {
@@ -124,4 +124,4 @@ inline MatePart tenon_plate(const RigidMotion& motion = {}) {
       motion);
 }
 
-}  // namespace mortise::testing
+}  // namespace mortise::testing_parts

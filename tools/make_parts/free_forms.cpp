@@ -14,7 +14,6 @@ namespace mortise::parts_maker {
 namespace {
 
 using Eigen::Vector3d;
-const Vector3d kUp = Vector3d::UnitZ();
 
 /// A uniform number in [-1, 1); std's distributions differ between libraries, its engines do not.
 double uniform(std::mt19937& random) { return static_cast<double>(random()) / 2147483648.0 - 1.0; }

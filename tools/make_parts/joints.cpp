@@ -7,7 +7,6 @@ namespace mortise::parts_maker {
 namespace {
 
 using Eigen::Vector3d;
-const Vector3d kUp = Vector3d::UnitZ();
 
 /// A bar along x with half-round ends: centre, overall length, width, from z `low` to `high`.
 TopoDS_Shape round_ended_bar(double x, double length, double width, double low, double high) {

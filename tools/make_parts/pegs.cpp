@@ -11,7 +11,6 @@ namespace mortise::parts_maker {
 namespace {
 
 using Eigen::Vector3d;
-const Vector3d kUp = Vector3d::UnitZ();
 
 /// A round rail of radius `minor` along an arc in the plane z = centre.z, with balls at its ends.
 TopoDS_Shape curved_rail(const Vector3d& centre, double major, double minor, double from,

@@ -9,6 +9,8 @@
 
 namespace mortise::parts_maker {
 
+inline const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+
 TopoDS_Shape box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 /// From `base` along `axis` (any length) for `height`.
 TopoDS_Shape cylinder(const Eigen::Vector3d& base, const Eigen::Vector3d& axis, double radius,

@@ -33,7 +33,6 @@ namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
-const Vector3d kUp = Vector3d::UnitZ();
 const Vector3d kAlong = Vector3d::UnitY();
 
 gp_Pnt polar(double radius, double angle) {

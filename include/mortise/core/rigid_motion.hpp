@@ -22,6 +22,10 @@ struct RigidMotion {
   }
 };
 
+/// @throws InputError "<who>: ..." unless the translation is finite and the quaternion of unit norm
+/// to 1e-6
+void check_motion(const RigidMotion& motion, const char* who);
+
 /// The same rotation with unit norm and w >= 0 (for w = 0: the first nonzero of x, y, z positive).
 [[nodiscard]] Eigen::Quaterniond canonical(const Eigen::Quaterniond& q);
 

@@ -43,7 +43,7 @@ struct PlacedPoints {
                const Eigen::VectorXd& shape_weights);
 
   Eigen::Vector3d centre;   ///< mean of the shape's points, the body's input frame
-  double gyration;          ///< their rms distance from it, angstrom
+  double gyration;          ///< their rms distance from it, angstrom; 1 if less
   Eigen::VectorXd x, y, z;  ///< entries' places from the centre, angstrom
   Eigen::VectorXi types;    ///< -1 = none
   Eigen::VectorXd weights;  ///< of the shape term; 0 = none
@@ -65,7 +65,7 @@ class ScoreMaps {
   /// @throws InputError as above, or if points and weights do not agree
   ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential,
             const Eigen::Matrix3Xd& shape_points, const Eigen::VectorXd& shape_weights,
-            const RadialKernel& shape_kernel, const ScoreMapsOptions& options = {});
+            const TabulatedKernel& shape_kernel, const ScoreMapsOptions& options = {});
 
   /// sum_ij near K1 + far K2 over fixed points i and moved points j; without the shape term.
   /// Interpolated linearly in each axis. Time O(moving points within range). Thread safe.
@@ -92,7 +92,7 @@ class ScoreMaps {
                    const Visit& visit) const;
   void fill_contacts(const TypedPoints& fixed, const ContactPotential& potential, int threads);
   void fill_shape(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
-                  const RadialKernel& kernel, int threads);
+                  const TabulatedKernel& kernel, int threads);
   void mark_nearby();
 
   std::array<int, 3> size_;

@@ -11,7 +11,7 @@
 namespace mortise {
 
 /// A function of distance that is 0 from `range` on, as a table over the squared distance.
-struct RadialKernel {
+struct TabulatedKernel {
   double range = 0.0;          ///< length unit of the bodies; > 0
   std::vector<double> values;  ///< at squared distances i range^2 / (n - 1), i < n; n >= 2
 
@@ -27,7 +27,7 @@ struct RadialKernel {
 /// so that the channel scores Re sum_ij c_i d_j K(d_ij). K is cut 1.15 / cutoff past the channel's
 /// range, tapered over the last 0.5 / cutoff: little of it reaches there (docs/math.md).
 /// @throws InputError unless the low-pass ends at a finite cutoff > 0 and radii are > 0
-[[nodiscard]] RadialKernel shape_kernel(const Channel& channel, double fixed_radius,
-                                        double moving_radius, const LowPass& low_pass);
+[[nodiscard]] TabulatedKernel shape_kernel(const Channel& channel, double fixed_radius,
+                                           double moving_radius, const LowPass& low_pass);
 
 }  // namespace mortise
