@@ -8,6 +8,7 @@ A pair may stand in one file only. Pairs that failed count as pairs without succ
 """
 
 import csv
+import statistics
 import sys
 
 RANKS = (1, 5, 10, 100, 1000, 2000)
@@ -39,6 +40,9 @@ def main():
             first = [int(row[column]) for row in some if row[column] and not row["error"]]
             counts = " | ".join(str(sum(rank <= k for rank in first)) for k in RANKS)
             print(f"| {cls}, {len(some)} | {name} | {counts} |")
+    nearest = [float(row["best_interface_rmsd"]) for row in rows.values() if row["best_interface_rmsd"]]
+    if nearest:
+        print(f"\nbest pose: median i-RMSD {statistics.median(nearest):.2f} A")
     for label, column, unit in (("CPU", "cpu_seconds", "s"), ("wall", "seconds", "s"), ("peak", "peak_memory_mb", "MB")):
         values = sorted(float(row[column]) for row in rows.values() if row[column])
         if values:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,6 @@ extern const GapTable kGapTable;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTolerance = 1e-7;  // of the spectra: single precision's own
 
 }  // namespace
@@ -151,7 +149,7 @@ GapValue GapFunction::operator()(const RigidMotion& pose, int modes) const {
   }
   const Eigen::Vector3d slope = Eigen::Map<const Eigen::Vector3d>(total.translation);
   const Eigen::Vector3d spin = Eigen::Map<const Eigen::Vector3d>(total.rotation);
-  return s.finish(pose, total.value, -kTurn / s.box * slope, -(rotation * spin));
+  return s.finish(pose, total.value, -kWholeTurn / s.box * slope, -(rotation * spin));
 }
 
 void GapFunction::evaluate(std::span<const RigidMotion> poses, std::span<GapValue> values,
@@ -180,7 +178,7 @@ GapValue GapFunction::exact(const RigidMotion& pose, int modes) const {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
   for (int i = 0; i < half; ++i) {
     const Eigen::Vector3d k = s.modes[i].cast<double>();
-    const std::complex<double> phase = std::polar(1.0, kTurn * k.dot(t) / s.box);
+    const std::complex<double> phase = std::polar(1.0, kWholeTurn * k.dot(t) / s.box);
     for (Eigen::Index p = 0; p < s.coefficients.cols(); ++p) {
       const std::complex<double> product = s.coefficients(i, p) * phase, own = g(i, 4 * p);
       value += (product * std::conj(own)).real();
@@ -190,7 +188,7 @@ GapValue GapFunction::exact(const RigidMotion& pose, int modes) const {
       spin += frequencies.col(i).cross(gradient);
     }
   }
-  return s.finish(pose, value, -kTurn / s.box * slope, -(rotation * spin));
+  return s.finish(pose, value, -kWholeTurn / s.box * slope, -(rotation * spin));
 }
 
 int GapFunction::modes() const noexcept { return 2 * static_cast<int>(state_->modes.size()) - 1; }

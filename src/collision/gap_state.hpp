@@ -14,6 +14,8 @@
 
 namespace mortise {
 
+inline constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+
 struct GapFunction::State {
   BodyDensity moving;
   BoundingBall fixed_ball, moving_ball;
