@@ -4,8 +4,8 @@ add_library(mortise_build_flags INTERFACE)
 target_compile_features(mortise_build_flags INTERFACE cxx_std_20)
 # No -Wshadow where sources are joined: it would blame a local name for another file's.
 target_compile_options(
-  mortise_build_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
-                                $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
+  mortise_build_flags INTERFACE -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow> -Wconversion
+                                -Wno-sign-conversion
                                 $<$<BOOL:${MORTISE_WERROR}>:-Werror> $<$<BOOL:${MORTISE_NATIVE}>:-march=native>)
 if(MORTISE_SANITIZE)
   target_compile_options(mortise_build_flags INTERFACE -fsanitize=${MORTISE_SANITIZE} -fno-sanitize-recover=all
