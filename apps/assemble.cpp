@@ -259,6 +259,7 @@ void let_go(const AssembleFlags& options, const Session& made) {
 }
 
 void run(AssembleFlags options) {
+  install_interrupt_handler();  // between two steps
   options.field.threads = options.assembly.threads = options.common.threads;
   if (options.path.empty() == options.goal.empty())
     throw InputError("assemble: give either --path or --goal");

@@ -8,6 +8,7 @@
 
 #include "clock.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/format_part.hpp"
@@ -17,6 +18,7 @@
 #include "mortise/parts/sphere_tree.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/knots_file.hpp"
+#include "output_guard.hpp"
 
 namespace mortise::app {
 namespace {
@@ -30,6 +32,7 @@ struct DecomposeFlags {
   DecomposeOptions decompose;
   int arity = SphereTreeOptions{}.arity;
   bool allow_open = false;
+  bool force = false;
   bool measure = true;
 };
 
@@ -66,7 +69,8 @@ Json resolved(const DecomposeFlags& options) {
 void print(const DecomposeFlags& options, const Json& figures) {
   const auto number = [&](const char* name) { return figures[name].get<double>(); };
   const auto count = [&](const char* name) { return figures[name].get<long>(); };
-  std::printf("balls      %ld of %ld inner ones kept, in a tree of %ld\n", count("n3"), count("n1"),
+  std::printf("balls      %ld: %ld of %ld inner ones and %ld added at the boundary, tree of %ld\n",
+              count("n3"), count("n3") - count("n_boundary"), count("n1"), count("n_boundary"),
               count("tree_balls"));
   std::printf("grid       %ld nodes, %ld inside, %.4f of these in the balls\n", count("nodes"),
               count("inside"), number("coverage"));
@@ -74,6 +78,8 @@ void print(const DecomposeFlags& options, const Json& figures) {
   if (options.measure) {
     std::printf("hausdorff  %.6g   balls beyond part %.6g, part beyond balls %.6g\n",
                 number("hausdorff"), number("balls_beyond_part"), number("part_beyond_balls"));
+    std::printf("samples    %.6g apart, in the solid %.6g\n", number("hausdorff_spacing"),
+                number("hausdorff_node_spacing"));
     std::printf("surfaces   %.6g   of balls to part %.6g, of part to balls %.6g\n",
                 number("hausdorff_surfaces"), number("ball_surface_to_part"),
                 number("part_surface_to_balls"));
@@ -83,7 +89,19 @@ void print(const DecomposeFlags& options, const Json& figures) {
               options.ply.empty() ? "" : (", " + options.ply).c_str());
 }
 
+// Neither file is an input, nor the other one, nor an older answer.
+void check_outputs(const DecomposeFlags& options) {
+  const char* remedy = "--force replaces it";
+  check_output_file(options.output, {options.part}, options.force, remedy);
+  if (options.ply.empty()) return;
+  if (same_file(options.ply, options.output))
+    throw FileError(options.ply, "expected another file than the one for the knots (-o)");
+  check_output_file(options.ply, {options.part}, options.force, remedy);
+}
+
 void run(DecomposeFlags options) {
+  exit_at_once_on_interrupt("no knots were written");
+  check_outputs(options);
   options.decompose.method = kMethods.at(options.method);
   options.decompose.reduction = kReductions.at(options.reduction);
   options.decompose.weights = kWeights.at(options.weights);
@@ -99,18 +117,19 @@ void run(DecomposeFlags options) {
   const Decomposition result = decompose(solid, options.decompose);
   const SphereTree tree = sphere_tree(result.knots.points, {.arity = options.arity});
   const double seconds = seconds_since(start);
-  if (interrupted()) throw Interrupted("nothing was written");
 
-  Json figures = {{"n1", result.inner.cols()},   {"n3", result.knots.size()},
-                  {"epsilon", result.epsilon},   {"spacing", result.spacing},
-                  {"nodes", result.nodes},       {"inside", result.inside},
-                  {"coverage", result.coverage}, {"tree_balls", tree.size()}};
+  Json figures = {
+      {"n1", result.inner.cols()}, {"n3", result.knots.size()},   {"n_boundary", result.added},
+      {"epsilon", result.epsilon}, {"spacing", result.spacing},   {"nodes", result.nodes},
+      {"inside", result.inside},   {"coverage", result.coverage}, {"tree_balls", tree.size()}};
   if (options.measure) {
     const double spacing = 0.5 * result.epsilon;
     const HausdorffDistance distance =
         hausdorff_distance(result.knots.points, solid, surface_samples(part.mesh, spacing),
                            {.spacing = spacing, .threads = options.common.threads});
     figures["hausdorff"] = distance.of_solids();
+    figures["hausdorff_spacing"] = distance.spacing;
+    figures["hausdorff_node_spacing"] = distance.node_spacing;
     figures["balls_beyond_part"] = distance.balls_beyond_solid;
     figures["part_beyond_balls"] = distance.solid_beyond_balls;
     figures["hausdorff_surfaces"] = distance.of_surfaces();
@@ -177,6 +196,7 @@ void add_decompose(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(2, 64));
   command.add_option("--ply", options->ply, "PLY file of the balls, to look at");
+  command.add_flag("--force", options->force, "Replace the output files if they are there");
   command.add_flag("--allow-open", options->allow_open,
                    "Take a surface with holes; inside is where it winds around a point");
   command.add_flag("!--no-hausdorff", options->measure,

@@ -46,6 +46,7 @@ class MateCommand : public SearchCommand {
       fixed_ = read_mate_body(options_.fixed, settings_);
       moving_ = read_mate_body(options_.moving, settings_);
     }
+    expect_one_unit(fixed_, moving_);
   }
 
   [[nodiscard]] SearchResult search(const Provenance& provenance, const SearchWatch& watch,
