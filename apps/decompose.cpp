@@ -2,9 +2,11 @@
 // mortise decompose: a part as few balls, with the error this makes.
 #include "mortise/parts/decompose.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "clock.hpp"
 #include "commands.hpp"
@@ -89,6 +91,37 @@ void print(const DecomposeFlags& options, const Json& figures) {
               options.ply.empty() ? "" : (", " + options.ply).c_str());
 }
 
+// A solid that tells how many of its distances have been asked for.
+class CountedSolid : public Solid {
+ public:
+  CountedSolid(const Solid& solid, std::size_t total, ProgressCallback progress)
+      : solid_(solid), total_(total), progress_(std::move(progress)) {}
+  [[nodiscard]] Eigen::AlignedBox3d bounds() const override { return solid_.bounds(); }
+  [[nodiscard]] Eigen::VectorXd signed_distance(const Eigen::Matrix3Xd& points,
+                                                double band) const override {
+    Eigen::VectorXd result = solid_.signed_distance(points, band);
+    const std::lock_guard lock(mutex_);
+    done_ = std::min(total_, done_ + static_cast<std::size_t>(points.cols()));
+    progress_(done_, total_);
+    return result;
+  }
+
+ private:
+  const Solid& solid_;
+  std::size_t total_;
+  ProgressCallback progress_;
+  mutable std::mutex mutex_;
+  mutable std::size_t done_ = 0;
+};
+
+// Nodes of a grid of cubic cells over the box.
+std::size_t node_count(const Eigen::AlignedBox3d& box, int grid) {
+  const double longest = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (!(longest > 0.0)) return 0;  // decompose() refuses it
+  const Eigen::Array3d cells = box.sizes().array() / longest * grid;
+  return static_cast<std::size_t>((cells - 1e-9).ceil().max(1.0).prod());
+}
+
 // Neither file is an input, nor the other one, nor an older answer.
 void check_outputs(const DecomposeFlags& options) {
   const char* remedy = "--force replaces it";
@@ -114,7 +147,9 @@ void run(DecomposeFlags options) {
 
   const Clock::time_point start = Clock::now();
   const MeshSolid solid(part.mesh, {.threads = options.common.threads});
-  const Decomposition result = decompose(solid, options.decompose);
+  const CountedSolid counted(solid, node_count(solid.bounds(), options.decompose.grid),
+                             make_progress("distances", options.common));
+  const Decomposition result = decompose(counted, options.decompose);
   const SphereTree tree = sphere_tree(result.knots.points, {.arity = options.arity});
   const double seconds = seconds_since(start);
 

@@ -38,8 +38,9 @@ void evaluate_parts(const std::string& run_path, const std::string& truth, const
   Run run = read_run(run_path);
   if (run.poses.poses.empty()) throw InputError("evaluate: " + run_path + " holds no poses yet");
   check_writable(run_path);
-  const TrueMate mate =
+  TrueMate mate =
       find_true_mate(read_true_mates(truth), stem_of(run.fixed), stem_of(run.moving), pair);
+  if (mate.name.empty()) mate.name = stem_of(run.fixed) + " " + stem_of(run.moving);
   const Placement placement(read_input_part(run.moving, run.provenance, "moving", moving).mesh,
                             mate);
   const std::size_t count = run.poses.poses.size();

@@ -174,6 +174,8 @@ void run_search_command(SearchCommand& command, const SearchOptionsCommon& optio
     throw Interrupted(std::to_string(rotations_done(run)) + " of " +
                       std::to_string(run.rotations.done.size()) + " rotations are in " +
                       options.output + "; " + go_on);
+  if (run.poses.poses.empty() && !options.common.quiet)
+    std::fprintf(stderr, "mortise: %s: the search found no pose\n", options.output.c_str());
   std::vector<std::string> decisions = command.decisions();
   decisions.insert(decisions.end(), result.decisions.begin(), result.decisions.end());
   if (options.common.json)

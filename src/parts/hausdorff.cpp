@@ -67,7 +67,7 @@ Depths depths_at_nodes(const Solid& solid, const SphereTree& tree, const GridNod
   const GridBlocks blocks(nodes);
   std::vector<Depths> found(blocks.count());
   // Outside the solid only what lies further out than the boundary's samples do is asked for.
-  const double band = std::max(nodes.spacing, balls_beyond_solid);
+  const double band = std::max(1e-3 * nodes.spacing, balls_beyond_solid);
   parallel_for(blocks.count(), threads, [&](std::size_t index, int) {
     const Eigen::Matrix3Xd points = blocks.block(index).points;
     const Eigen::VectorXd side = solid.signed_distance(points, band);

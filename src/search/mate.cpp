@@ -285,8 +285,9 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
     impl_->rotations = axial_rotations(*options.axis, options.rotations, search_from_fixed);
   } else {
     impl_->rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
-    const Eigen::Matrix4Xd aligned = aligned_rotations(
-        find_directions(fixed.mesh), find_directions(moving.mesh), options.turns, options.aligned);
+    const Eigen::Matrix4Xd aligned =
+        aligned_rotations(find_directions(local_fixed.mesh), find_directions(local_moving.mesh),
+                          options.turns, options.aligned);
     const Eigen::Index regular = impl_->rotations.size();
     impl_->rotations.quaternions.conservativeResize(4, regular + aligned.cols());
     for (Eigen::Index i = 0; i < aligned.cols(); ++i) {

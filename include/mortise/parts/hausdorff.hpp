@@ -26,8 +26,8 @@ struct HausdorffOptions {
 };
 
 /// Largest distances, each from samples of the first set to the second. A true one may be larger by
-/// `spacing` at most (2 spacing for surface_to_balls), and deep inside both, where a body's own
-/// boundary is far, by half a diagonal of the nodes' grid, 0.87 `node_spacing`.
+/// `spacing` at most (2 spacing for surface_to_balls) where it is taken near a boundary, by half a
+/// diagonal of the nodes' grid, 0.87 `node_spacing`, elsewhere.
 struct HausdorffDistance {
   double balls_beyond_solid = 0.0;  ///< from the union of the balls to the solid
   double solid_beyond_balls = 0.0;  ///< from the solid to the union of the balls
