@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/progress.hpp"
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "mortise/parts/hausdorff.hpp"

