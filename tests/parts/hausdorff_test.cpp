@@ -77,7 +77,7 @@ TEST(Hausdorff, OfBallsThatFillACavityIsFromItsMiddle) {
 
 TEST(Hausdorff, SaysHowFarApartItsNodesAre) {
   const auto solid = make_box({0, 0, 0}, {10.0, 0.011, 0.011});
-  const HausdorffDistance d = hausdorff_distance(Eigen::Vector4d(5, 0, 0, 5.1), *solid,
+  const HausdorffDistance d = hausdorff_distance(Eigen::Vector4d(5, 0, 0, 0.02), *solid,
                                                  Eigen::Vector3d(0, 0, 0), {.spacing = 0.005});
   EXPECT_EQ(d.spacing, 0.005);
   EXPECT_NEAR(d.node_spacing, 10.0 / 512, 1e-12);  // not the 0.01 asked for
