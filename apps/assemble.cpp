@@ -284,6 +284,7 @@ void let_go(const AssembleFlags& options, const Session& made) {
 }
 
 void run(AssembleFlags options) {
+  install_interrupt_handler();  // between two steps
   options.field.threads = options.assembly.threads = options.common.threads;
   if (int{options.path.empty()} + int{options.goal.empty()} + int{options.mates.empty()} != 2)
     throw InputError("assemble: give one of --path, --goal and --mates");

@@ -302,6 +302,7 @@ Json success_json(const std::vector<SuccessCount>& counts) {
 }
 
 void execute(BenchmarkFlags options) {
+  install_interrupt_handler();  // pairs that are done are kept
   DockSettings settings = resolve(options.arguments);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   settings.options.threads = options.common.threads;

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <deque>
 #include <memory>
 
 #include "commands.hpp"
+#include "interrupt.hpp"
 
 namespace mortise::app {
 namespace {
@@ -18,6 +20,22 @@ namespace {
 volatile std::sig_atomic_t interrupt_flag = 0;
 
 void on_signal(int) { interrupt_flag = 1; }
+
+std::atomic<const std::string*> last_words = nullptr;
+
+void exit_on_signal(int) {  // calls only what a signal handler may
+  const std::string* words = last_words;
+  if (write(STDERR_FILENO, words->data(), words->size()) < 0) _exit(130);
+  _exit(130);
+}
+
+void handle_interrupts(void (*handler)(int), int flags) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
 
 std::string clock_text(double seconds) {
   char text[32];
@@ -59,11 +77,14 @@ double peak_memory_mb() {
 }
 
 void install_interrupt_handler() {
-  struct sigaction action = {};
-  action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends the program at once
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  // A second Ctrl-C ends the program at once.
+  handle_interrupts(on_signal, static_cast<int>(SA_RESETHAND));
+}
+
+void exit_at_once_on_interrupt(const std::string& message) {
+  static std::deque<std::string> all;  // never moved: a signal may be reading one
+  last_words = &all.emplace_back("mortise: interrupted: " + message + "\n");
+  handle_interrupts(exit_on_signal, 0);
 }
 
 bool interrupted() { return interrupt_flag != 0; }

@@ -2,13 +2,17 @@
 // mortise decompose: a part as few balls, with the error this makes.
 #include "mortise/parts/decompose.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "clock.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/progress.hpp"
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "mortise/parts/hausdorff.hpp"
@@ -17,6 +21,7 @@
 #include "mortise/parts/sphere_tree.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/knots_file.hpp"
+#include "output_guard.hpp"
 
 namespace mortise::app {
 namespace {
@@ -30,6 +35,7 @@ struct DecomposeFlags {
   DecomposeOptions decompose;
   int arity = SphereTreeOptions{}.arity;
   bool allow_open = false;
+  bool force = false;
   bool measure = true;
 };
 
@@ -66,7 +72,8 @@ Json resolved(const DecomposeFlags& options) {
 void print(const DecomposeFlags& options, const Json& figures) {
   const auto number = [&](const char* name) { return figures[name].get<double>(); };
   const auto count = [&](const char* name) { return figures[name].get<long>(); };
-  std::printf("balls      %ld of %ld inner ones kept, in a tree of %ld\n", count("n3"), count("n1"),
+  std::printf("balls      %ld: %ld of %ld inner ones and %ld added at the boundary, tree of %ld\n",
+              count("n3"), count("n3") - count("n_boundary"), count("n1"), count("n_boundary"),
               count("tree_balls"));
   std::printf("grid       %ld nodes, %ld inside, %.4f of these in the balls\n", count("nodes"),
               count("inside"), number("coverage"));
@@ -74,6 +81,8 @@ void print(const DecomposeFlags& options, const Json& figures) {
   if (options.measure) {
     std::printf("hausdorff  %.6g   balls beyond part %.6g, part beyond balls %.6g\n",
                 number("hausdorff"), number("balls_beyond_part"), number("part_beyond_balls"));
+    std::printf("samples    %.6g apart, in the solid %.6g\n", number("hausdorff_spacing"),
+                number("hausdorff_node_spacing"));
     std::printf("surfaces   %.6g   of balls to part %.6g, of part to balls %.6g\n",
                 number("hausdorff_surfaces"), number("ball_surface_to_part"),
                 number("part_surface_to_balls"));
@@ -83,7 +92,50 @@ void print(const DecomposeFlags& options, const Json& figures) {
               options.ply.empty() ? "" : (", " + options.ply).c_str());
 }
 
+// A solid that tells how many of its distances have been asked for.
+class CountedSolid : public Solid {
+ public:
+  CountedSolid(const Solid& solid, std::size_t total, ProgressCallback progress)
+      : solid_(solid), total_(total), progress_(std::move(progress)) {}
+  [[nodiscard]] Eigen::AlignedBox3d bounds() const override { return solid_.bounds(); }
+  [[nodiscard]] Eigen::VectorXd signed_distance(const Eigen::Matrix3Xd& points,
+                                                double band) const override {
+    Eigen::VectorXd result = solid_.signed_distance(points, band);
+    const std::lock_guard lock(mutex_);
+    done_ = std::min(total_, done_ + static_cast<std::size_t>(points.cols()));
+    progress_(done_, total_);
+    return result;
+  }
+
+ private:
+  const Solid& solid_;
+  std::size_t total_;
+  ProgressCallback progress_;
+  mutable std::mutex mutex_;
+  mutable std::size_t done_ = 0;
+};
+
+// Nodes of a grid of cubic cells over the box.
+std::size_t node_count(const Eigen::AlignedBox3d& box, int grid) {
+  const double longest = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (!(longest > 0.0)) return 0;  // decompose() refuses it
+  const Eigen::Array3d cells = box.sizes().array() / longest * grid;
+  return static_cast<std::size_t>((cells - 1e-9).ceil().max(1.0).prod());
+}
+
+// Neither file is an input, nor the other one, nor an older answer.
+void check_outputs(const DecomposeFlags& options) {
+  const char* remedy = "--force replaces it";
+  check_output_file(options.output, {options.part}, options.force, remedy);
+  if (options.ply.empty()) return;
+  if (same_file(options.ply, options.output))
+    throw FileError(options.ply, "expected another file than the one for the knots (-o)");
+  check_output_file(options.ply, {options.part}, options.force, remedy);
+}
+
 void run(DecomposeFlags options) {
+  exit_at_once_on_interrupt("no knots were written");
+  check_outputs(options);
   options.decompose.method = kMethods.at(options.method);
   options.decompose.reduction = kReductions.at(options.reduction);
   options.decompose.weights = kWeights.at(options.weights);
@@ -96,21 +148,24 @@ void run(DecomposeFlags options) {
 
   const Clock::time_point start = Clock::now();
   const MeshSolid solid(part.mesh, {.threads = options.common.threads});
-  const Decomposition result = decompose(solid, options.decompose);
+  const CountedSolid counted(solid, node_count(solid.bounds(), options.decompose.grid),
+                             make_progress("distances", options.common));
+  const Decomposition result = decompose(counted, options.decompose);
   const SphereTree tree = sphere_tree(result.knots.points, {.arity = options.arity});
   const double seconds = seconds_since(start);
-  if (interrupted()) throw Interrupted("nothing was written");
 
-  Json figures = {{"n1", result.inner.cols()},   {"n3", result.knots.size()},
-                  {"epsilon", result.epsilon},   {"spacing", result.spacing},
-                  {"nodes", result.nodes},       {"inside", result.inside},
-                  {"coverage", result.coverage}, {"tree_balls", tree.size()}};
+  Json figures = {
+      {"n1", result.inner.cols()}, {"n3", result.knots.size()},   {"n_boundary", result.added},
+      {"epsilon", result.epsilon}, {"spacing", result.spacing},   {"nodes", result.nodes},
+      {"inside", result.inside},   {"coverage", result.coverage}, {"tree_balls", tree.size()}};
   if (options.measure) {
     const double spacing = 0.5 * result.epsilon;
     const HausdorffDistance distance =
         hausdorff_distance(result.knots.points, solid, surface_samples(part.mesh, spacing),
                            {.spacing = spacing, .threads = options.common.threads});
     figures["hausdorff"] = distance.of_solids();
+    figures["hausdorff_spacing"] = distance.spacing;
+    figures["hausdorff_node_spacing"] = distance.node_spacing;
     figures["balls_beyond_part"] = distance.balls_beyond_solid;
     figures["part_beyond_balls"] = distance.solid_beyond_balls;
     figures["hausdorff_surfaces"] = distance.of_surfaces();
@@ -177,6 +232,7 @@ void add_decompose(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(2, 64));
   command.add_option("--ply", options->ply, "PLY file of the balls, to look at");
+  command.add_flag("--force", options->force, "Replace the output files if they are there");
   command.add_flag("--allow-open", options->allow_open,
                    "Take a surface with holes; inside is where it winds around a point");
   command.add_flag("!--no-hausdorff", options->measure,

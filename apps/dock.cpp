@@ -110,7 +110,8 @@ void add_dock(CLI::App& program) {
       "  mortise dock complex.cif.gz:A,B complex.cif.gz:C -o run.h5 --preset thorough\n"
       "  mortise dock receptor.pdb ligand.pdb -o run.h5 --rotations 54000 --json\n"
       "  mortise dock -o run.h5 --resume\n"
-      "Ctrl-C saves the run so far, with the best poses of it, and exits with 130.");
+      "Ctrl-C saves the run so far, with the best poses of it (without, at a second Ctrl-C),\n"
+      "and exits with 130.");
   command.callback([options] {
     DockCommand dock(*options);
     run_search_command(dock, *options);

@@ -68,17 +68,35 @@ void print_summary(const Run& run, const ReferenceSummary& reference,
   std::printf("\n%s", pose_table(run, 10).c_str());
 }
 
+// An option that does nothing for this kind of run is a misunderstanding.
+void refuse_options(const std::string& kind, const EvaluateFlags& options) {
+  const bool parts = kind == "mate";
+  const std::pair<const char*, bool> given[] = {
+      {"--reference-fixed", parts && !options.reference_fixed.empty()},
+      {"--reference-moving", parts && !options.reference_moving.empty()},
+      {"--fixed", parts && !options.fixed_path.empty()},
+      {"--interface", parts && options.interfaces > 0},
+      {"--reference-pose", !parts && !options.reference_pose.empty()},
+      {"--pair", !parts && !options.pair.empty()}};
+  for (const auto& [name, here] : given)
+    if (here)
+      throw InputError("evaluate: " + std::string(name) + " is for runs of " +
+                       (parts ? "molecules" : "parts") + "; this is a " + kind + " run");
+}
+
 void execute(const EvaluateFlags& options) {
   Run run = read_run(options.run);
   if (run.kind == "mate") {
     if (options.reference_pose.empty())
       throw InputError("evaluate: a run of parts needs --reference-pose");
+    refuse_options(run.kind, options);
     evaluate_parts(options.run, options.reference_pose, options.pair,
                    {options.moving_path, options.force}, options.common);
     return;
   }
   if (options.reference_fixed.empty() || options.reference_moving.empty())
     throw InputError("evaluate: a docking needs --reference-fixed and --reference-moving");
+  refuse_options(run.kind, options);
   if (run.poses.poses.empty()) throw InputError("evaluate: " + options.run + " holds no poses yet");
   check_writable(options.run);
   const Molecule fixed =
@@ -134,13 +152,14 @@ void add_evaluate(CLI::App& program) {
   command.add_option("--pair", options->pair,
                      "Parts: name of the pair in that file; default: by the parts' file names");
   command.add_option("--fixed", options->fixed_path,
-                     "Where the receptor's (fixed part's) file is now");
+                     "Where the receptor's file is now; of parts only the moving one is read");
   command.add_option("--moving", options->moving_path,
                      "Where the ligand's (moving part's) file is now");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
-  command.add_option("--interface", options->interfaces,
-                     "Describe the interfaces of the best N poses too: buried area, contacts,\n"
-                     "hydrogen bonds, clashes, shape complementarity Sc");
+  command.add_option(
+      "--interface", options->interfaces,
+      "Describe the interfaces of the best N poses of molecules too: buried area, contacts,\n"
+      "hydrogen bonds, clashes, shape complementarity Sc");
   add_common_options(
       command, options->common,
       "  mortise evaluate run.h5 --reference-fixed complex.pdb:A --reference-moving complex.pdb:B\n"

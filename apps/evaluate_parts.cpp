@@ -11,7 +11,6 @@
 #include "mortise/core/threads.hpp"
 #include "mortise/metrics/placement.hpp"
 #include "mortise/metrics/true_mates.hpp"
-#include "mortise/parts/read_part.hpp"
 #include "mortise/report/interface_columns.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "pose_table.hpp"
@@ -39,13 +38,11 @@ void evaluate_parts(const std::string& run_path, const std::string& truth, const
   Run run = read_run(run_path);
   if (run.poses.poses.empty()) throw InputError("evaluate: " + run_path + " holds no poses yet");
   check_writable(run_path);
-  const TrueMate mate =
+  TrueMate mate =
       find_true_mate(read_true_mates(truth), stem_of(run.fixed), stem_of(run.moving), pair);
-  const Placement placement(
-      read_part(locate_input(run.moving, run.provenance, "moving", moving),
-                {.repair = {.allow_open = true, .find_self_intersections = false}})
-          .mesh,
-      mate);
+  if (mate.name.empty()) mate.name = stem_of(run.fixed) + " " + stem_of(run.moving);
+  const Placement placement(read_input_part(run.moving, run.provenance, "moving", moving).mesh,
+                            mate);
   const std::size_t count = run.poses.poses.size();
   MetricColumn largest{"placement_largest", std::vector<double>(count)};
   MetricColumn rms{"placement_rms", std::vector<double>(count)};

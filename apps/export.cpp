@@ -10,6 +10,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/inputs.hpp"
+#include "output_guard.hpp"
 
 namespace mortise::app {
 namespace {
@@ -49,29 +50,31 @@ std::string with_rank(const std::string& path, std::size_t rank) {
 }
 
 // A file of parts holds one placement: several go to several files.
-std::vector<std::string> export_parts(const Run& run, ExportFormat format,
-                                      const ExportFlags& options, const std::string& output) {
+std::vector<std::string> files_of_parts(const Run& run, ExportFormat format,
+                                        const ExportFlags& options, const std::string& output) {
   const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
-  if (output == "-" && poses.size() > 1)
+  if (poses.size() == 1) return {output};
+  if (output == "-")
     throw InputError("export: stdout takes one placement of parts; choose it by --pose");
+  std::vector<std::string> files;
+  for (const std::size_t i : poses) files.push_back(with_rank(output, i + 1));
+  return files;
+}
+
+// Writes one file for each placement; gives the text where `files` is stdout's "-".
+std::string export_parts(const Run& run, ExportFormat format, const ExportFlags& options,
+                         const std::vector<std::string>& files) {
   if (run.kind != "mate")
     throw InputError("format " + options.format + " is for parts; this is a " + run.kind + " run");
-  std::string fixed;
-  if (options.choice.complex)
-    fixed = locate_input(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
-  const std::string moving =
-      locate_input(run.moving, run.provenance, "moving", {options.moving_path, options.force});
-  std::vector<std::string> files;
-  for (const std::size_t i : poses) {
-    const std::string text = export_part(run, format, i, fixed, moving, options.choice);
-    if (output == "-") {
-      files.push_back(text);
-      break;
-    }
-    files.push_back(poses.size() == 1 ? output : with_rank(output, i + 1));
-    write_file_atomically(files.back(), text);
+  const ExportParts parts = read_export_parts(run, {options.fixed_path, options.force},
+                                              {options.moving_path, options.force}, options.choice);
+  const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    const std::string text = export_part(run, format, poses[n], parts, options.choice);
+    if (files[n] == "-") return text;
+    write_file_atomically(files[n], text);
   }
-  return files;
+  return {};
 }
 
 std::string export_text(const Run& run, ExportFormat format, const ExportFlags& options) {
@@ -106,16 +109,16 @@ std::string export_text(const Run& run, ExportFormat format, const ExportFlags& 
                                       : export_mmcif(run, fixed, moving, options.choice);
 }
 
-void refuse_to_overwrite_inputs(const std::string& output, const Run& run,
-                                const ExportFlags& options) {
-  for (const std::string& input :
-       {options.run, run.fixed.path, run.moving.path, options.fixed_path, options.moving_path,
-        (fs::path(run.provenance.working_directory) / run.fixed.path).string(),
-        (fs::path(run.provenance.working_directory) / run.moving.path).string()}) {
-    std::error_code error;
-    if (!input.empty() && fs::equivalent(output, input, error) && !error)
-      throw FileError(output, "expected a file to write, found an input of this run");
-  }
+// All that a run's two inputs may be called.
+std::vector<std::string> inputs_of(const Run& run, const ExportFlags& options) {
+  const fs::path directory(run.provenance.working_directory);
+  return {options.run,
+          run.fixed.path,
+          run.moving.path,
+          options.fixed_path,
+          options.moving_path,
+          (directory / run.fixed.path).string(),
+          (directory / run.moving.path).string()};
 }
 
 void execute(const ExportFlags& options) {
@@ -126,18 +129,15 @@ void execute(const ExportFlags& options) {
   const Run run = read_run(options.run);
   const std::string output =
       options.output.empty() ? default_output(options.run, options.format) : options.output;
-  if (!to_stdout) {
-    refuse_to_overwrite_inputs(output, run, options);
-    check_writable(output, 0);
-  }
-  std::string text;
   std::vector<std::string> files{output};
-  if (is_for_parts(format)) {
-    files = export_parts(run, format, options, to_stdout ? "-" : output);
-    if (to_stdout) text = files.front();
-  } else {
-    text = export_text(run, format, options);
-  }
+  if (is_for_parts(format)) files = files_of_parts(run, format, options, output);
+  if (!to_stdout)
+    for (const std::string& file : files) {
+      refuse_to_overwrite_input(file, inputs_of(run, options));
+      check_writable(file, 0);
+    }
+  const std::string text = is_for_parts(format) ? export_parts(run, format, options, files)
+                                                : export_text(run, format, options);
   if (to_stdout) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
       throw InputError("export: writing to stdout failed");

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/version.hpp"
 
@@ -30,7 +31,7 @@ int main(int argc, char** argv) {
       "130 stopped by Ctrl-C, with what was done so far saved where the command says so.");
   mortise::app::set_command_line(argc, argv);
   try {
-    mortise::app::install_interrupt_handler();
+    mortise::app::exit_at_once_on_interrupt("nothing was saved");
     program.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& e) {

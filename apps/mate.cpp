@@ -46,6 +46,7 @@ class MateCommand : public SearchCommand {
       fixed_ = read_mate_body(options_.fixed, settings_);
       moving_ = read_mate_body(options_.moving, settings_);
     }
+    expect_one_unit(fixed_, moving_);
   }
 
   [[nodiscard]] SearchResult search(const Provenance& provenance, const SearchWatch& watch,
@@ -105,7 +106,8 @@ void add_mate(CLI::App& program) {
       "  mortise mate block.stl pin.stl -o run.h5 --axis 0,0,1:0,0,1 --rotations 360\n"
       "  mortise mate -o run.h5 --resume\n"
       "Score: facing surfaces in contact less what penetrates, relative to the smaller surface.\n"
-      "Ctrl-C saves the run so far, with the best placements of it, and exits with 130.");
+      "Ctrl-C saves the run so far, with the best placements of it (without, at a second Ctrl-C),\n"
+      "and exits with 130.");
   command.callback([options] {
     MateCommand mate(*options);
     run_search_command(mate, *options);

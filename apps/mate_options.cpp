@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/parts/read_part.hpp"
 
 namespace mortise::app {
 namespace {
@@ -111,7 +112,8 @@ void add_mate_options(CLI::App& command, MateArguments& arguments) {
           [&arguments](const double& value) {
             arguments.overrides.emplace_back([value](MateSettings& s) { s.deviation = value; });
           },
-          "Deviation of a STEP file's tessellation, length unit; 0 = a thousandth of its diagonal")
+          "Deviation of a STEP file's tessellation, length unit; 0 = its diagonal times " +
+              Json(ReadPartOptions{}.deviation).dump())
       ->default_str("0");
   command
       .add_option_function<int>(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/contact.hpp"
@@ -23,6 +24,7 @@ MateBody read_body(const BodyRecord& record, const std::string& path,
   options.repair.allow_open = settings.allow_open;
   ReadPartResult read = read_part(path, options);
   MateBody body{record, {}, std::move(read.decisions)};
+  body.record.unit = read.unit;
   body.part.solid = std::make_shared<MeshSolid>(read.mesh);
   body.part.mesh = std::move(read.mesh);
   return body;
@@ -50,6 +52,18 @@ void check_contacts(const MateBody& fixed, const MateBody& moving, const MateSet
   }
 }
 
+// What is said where the grid has to be coarser than asked for.
+std::vector<std::string> step_decisions(Mating& mating, const MateOptions& options) {
+  const double coarser = mating.search().spacing() / (options.spacing * mating.smaller_diameter());
+  if (coarser < 1.0 + 1e-6) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "grid step and skin %.3g times those asked for (%.3g, %.3g of the smaller part's "
+                "diameter): finer ones need more than --most-cells %g",
+                coarser, options.spacing * coarser, options.skin * coarser, options.most_cells);
+  return {text};
+}
+
 }  // namespace
 
 MateBody read_mate_body(const std::string& path, const MateSettings& settings) {
@@ -69,6 +83,17 @@ MateBody read_recorded_part(const BodyRecord& record, const Provenance& provenan
   return read_body(bare, locate_input(record, provenance, name, {.path = path}), settings);
 }
 
+void expect_one_unit(MateBody& fixed, MateBody& moving) {
+  const std::string &a = fixed.record.unit, &b = moving.record.unit;
+  if (!a.empty() && !b.empty() && a != b)
+    throw InputError("mate: expected both parts in one unit, found " + fixed.record.spec + " in " +
+                     a + " and " + moving.record.spec + " in " + b);
+  if (a.empty() == b.empty()) return;
+  MateBody& without = a.empty() ? fixed : moving;
+  without.decisions.push_back("the file knows no unit: its lengths are taken as " +
+                              (a.empty() ? b : a) + ", the other part's");
+}
+
 SearchResult mate(const MateBody& fixed, const MateBody& moving, const MateSettings& settings,
                   const Provenance& provenance, const SearchWatch& watch, const Run* earlier) {
   const auto begin = std::chrono::steady_clock::now();
@@ -82,10 +107,11 @@ SearchResult mate(const MateBody& fixed, const MateBody& moving, const MateSetti
   MateOptions options = settings.options;
   if (options.axis) options.axis->moving = start.rotation * options.axis->moving;
   Mating mating(fixed.part, started, options);
-  SearchResult result = run_search(
-      {"mate", fixed.record, moving.record, mating.fixed_knots(), mating.moving_knots(), start,
-       &mating.rotations(), &mating.search(), [&] { return mating.rank(); }, begin},
-      provenance, watch, earlier);
+  SearchResult result =
+      run_search({"mate", fixed.record, moving.record, mating.fixed_knots(), mating.moving_knots(),
+                  start, &mating.rotations(), &mating.search(), [&] { return mating.rank(); },
+                  begin, step_decisions(mating, options)},
+                 provenance, watch, earlier);
   if (result.run.complete) {
     const auto checks = std::chrono::steady_clock::now();
     check_contacts(fixed, moving, settings, result.run);

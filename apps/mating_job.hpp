@@ -28,6 +28,10 @@ struct MateBody {
                                           const std::string& name, const std::string& path,
                                           const MateSettings& settings);
 
+/// @throws InputError if the two files give different units. Where one gives none, its decisions
+/// say what it is taken to be.
+void expect_one_unit(MateBody& fixed, MateBody& moving);
+
 /// Mates, and checks the contact of the best poses exactly: columns contact_area,
 /// penetration_volume, penetration_depth, pull_blocked and pull_x, pull_y, pull_z of the run.
 /// run.seconds and figures of time are left to the caller. A random start moves the part by up to

@@ -7,9 +7,10 @@
 #include <numbers>
 
 #include "clock.hpp"
+#include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
-#include "mortise/store/atomic_file.hpp"
+#include "output_guard.hpp"
 #include "pose_table.hpp"
 
 namespace mortise::app {
@@ -18,20 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void refuse_to_overwrite_input(const std::string& output, const std::string& input) {
-  std::error_code error;
-  if (!input.empty() && fs::equivalent(output, input, error) && !error)
-    throw FileError(output, "expected a file to write, found an input");
-}
-
 // A run file is an answer for good: it is replaced or gone on with only where the user says so.
 void check_output(const SearchCommand& command, const SearchOptionsCommon& options) {
+  std::vector<std::string> inputs;
   for (const std::string& text : {options.fixed, options.moving})
-    if (!text.empty()) refuse_to_overwrite_input(options.output, command.file_of(text));
-  if (!options.resume && !options.force && fs::exists(options.output))
-    throw FileError(options.output,
-                    "exists already (--resume goes on with it, --force replaces it)");
-  check_writable(options.output);
+    if (!text.empty()) inputs.push_back(command.file_of(text));
+  check_output_file(options.output, inputs, options.resume || options.force,
+                    "--resume goes on with it, --force replaces it");
 }
 
 void add_figure(Run& run, const char* name, double value) { run.figures.push_back({name, value}); }
@@ -132,12 +126,25 @@ void run_search_command(SearchCommand& command, const SearchOptionsCommon& optio
   const double seconds_read = seconds_since(begin);
 
   const double seconds_before = earlier ? earlier->seconds : 0.0;
+  const std::string go_on =
+      "go on with: mortise " + command.name() + " -o " + shell_word(options.output) + " --resume";
   SearchWatch watch;
-  if (text)
-    watch.prepared = [&] {
-      command.print_inputs();
-      std::fflush(stdout);
-    };
+  watch.prepared = [&](const std::vector<std::string>& decisions) {
+    install_interrupt_handler();  // from here there is something to save
+    if (!text) return;
+    command.print_inputs();
+    for (const std::string& decision : decisions) std::printf("search    %s\n", decision.c_str());
+    std::fflush(stdout);
+  };
+  watch.ranking = [&](bool stopped) {
+    const std::string saved = "the search is in " + options.output + "; " + go_on;
+    exit_at_once_on_interrupt(saved);
+    if (!stopped && interrupted()) throw Interrupted(saved);
+    if (stopped && !options.common.quiet)
+      std::fprintf(stderr,
+                   "mortise: stopping; the best placements so far are worked out (Ctrl-C: "
+                   "without them)\n");
+  };
   watch.progress = make_progress(command.label(), options.common);
   watch.checkpoint_seconds = options.checkpoint_seconds;
   watch.save = [&](const Run& unfinished) {
@@ -166,15 +173,18 @@ void run_search_command(SearchCommand& command, const SearchOptionsCommon& optio
   if (!run.complete)
     throw Interrupted(std::to_string(rotations_done(run)) + " of " +
                       std::to_string(run.rotations.done.size()) + " rotations are in " +
-                      options.output + "; go on with: mortise " + command.name() + " -o " +
-                      shell_word(options.output) + " --resume");
+                      options.output + "; " + go_on);
+  if (run.poses.poses.empty() && !options.common.quiet)
+    std::fprintf(stderr, "mortise: %s: the search found no pose\n", options.output.c_str());
+  std::vector<std::string> decisions = command.decisions();
+  decisions.insert(decisions.end(), result.decisions.begin(), result.decisions.end());
   if (options.common.json)
     print_json(options.output, run,
                {{"grid", result.figures.grid_size},
                 {"spacing", result.figures.spacing},
                 {"threads", threads},
                 {"resumed", earlier.has_value()},
-                {"decisions", command.decisions()}});
+                {"decisions", decisions}});
   if (text) print_result(command, options.output, result, threads);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "clock.hpp"
 
@@ -76,13 +77,15 @@ SearchResult run_search(const SearchJob& job, const Provenance& provenance,
   if (earlier != nullptr && earlier->checkpoint)
     search.resume(earlier->rotations.done, candidates_of(*earlier->checkpoint));
   result.figures.seconds_prepare = seconds_since(job.begin);
-  if (watch.prepared) watch.prepared();
+  result.decisions = job.decisions;
+  if (watch.prepared) watch.prepared(job.decisions);
 
   const auto record_progress = [&] {
     run.rotations.done = search.done();
     run.checkpoint = checkpoint_of(search.candidates());
   };
-  for (bool stop = false; !run.complete && !stop;) {
+  bool stop = false;
+  while (!run.complete && !stop) {
     const auto leg = Clock::now();
     bool due = false;
     run.complete = search.run([&](std::size_t done, std::size_t total) {
@@ -91,13 +94,16 @@ SearchResult run_search(const SearchJob& job, const Provenance& provenance,
       return !stop && !due;
     });
     result.figures.seconds_search += seconds_since(leg);
-    if (run.complete || stop) continue;
     record_progress();
+    if (!watch.save) continue;
+    // Ranking may be cut short too: until then this is an unfinished run with all of the search.
+    const bool searched = std::exchange(run.complete, false);
     watch.save(run);
+    run.complete = searched;
   }
-  record_progress();
   if (run.complete) run.checkpoint.reset();
 
+  if (watch.ranking) watch.ranking(stop);
   const auto ranking = Clock::now();
   run.poses = job.rank();
   for (Pose& pose : run.poses.poses)

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "mortise/core/progress.hpp"
 #include "mortise/rotations/rotation_set.hpp"
@@ -19,8 +21,10 @@ namespace mortise::app {
 [[nodiscard]] RigidMotion random_start(std::uint64_t seed, double reach);
 
 struct SearchWatch {
-  std::function<void()>
-      prepared;  ///< called once, when nothing is left to be refused; may be empty
+  /// Called once, when nothing is left to be refused, with SearchJob::decisions; may be empty.
+  std::function<void(const std::vector<std::string>& decisions)> prepared;
+  /// Called once the search has ended or was stopped, before ranking: save() holds all of it.
+  std::function<void(bool stopped)> ranking;  ///< may be empty
   ProgressCallback progress;
   double checkpoint_seconds = 30.0;                 ///< between two calls of save; >= 0
   std::function<void(const Run& unfinished)> save;  ///< without poses; empty = none
@@ -38,6 +42,7 @@ struct SearchFigures {
 struct SearchResult {
   Run run;  ///< complete, or with a checkpoint and the poses so far
   SearchFigures figures;
+  std::vector<std::string> decisions;  ///< SearchJob's
 };
 
 /// A search that is ready to run: what docking and mating have in common.
@@ -52,6 +57,7 @@ struct SearchJob {
   RotationSearch* search;
   std::function<PoseList()> rank;  ///< what the search has found, in the frame of the start
   std::chrono::steady_clock::time_point begin;  ///< of the preparations
+  std::vector<std::string> decisions = {};  ///< what the preparations chose otherwise than asked
 };
 
 /// Runs the search and ranks. run.seconds and figures of time are left to the caller.

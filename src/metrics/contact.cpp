@@ -10,30 +10,16 @@
 #include <vector>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/core/threads.hpp"
 #include "mortise/parts/diameter.hpp"
 #include "mortise/parts/sample_surface.hpp"
+#include "parts/distances.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Distances of points in pieces that threads share.
-Eigen::VectorXd distances(const Solid& solid, const Eigen::Matrix3Xd& points, double band,
-                          int threads) {
-  Eigen::VectorXd result(points.cols());
-  constexpr Eigen::Index kPiece = 1024;
-  const auto pieces = static_cast<std::size_t>((points.cols() + kPiece - 1) / kPiece);
-  parallel_for(pieces, threads, [&](std::size_t piece, int) {
-    const Eigen::Index begin = static_cast<Eigen::Index>(piece) * kPiece;
-    const Eigen::Index count = std::min(kPiece, points.cols() - begin);
-    result.segment(begin, count) = solid.signed_distance(points.middleCols(begin, count), band);
-  });
-  return result;
-}
-
-// The same with gradients by central differences over `step`.
+// Distances of points with their gradients by central differences over `step`.
 struct Field {
   Eigen::VectorXd distance;
   Eigen::Matrix3Xd gradient;

@@ -44,11 +44,13 @@ double largest_distance(const Eigen::Matrix3Xd& points, const RigidMotion& a,
   return std::sqrt(((turn * points).colwise() + step).colwise().squaredNorm().maxCoeff());
 }
 
-// One continuous parameter: its range, and whether its ends meet.
+// One continuous parameter: its range, whether its ends meet, and a change of it that moves the
+// part by about its diameter.
 struct Range {
   double from, to;
   bool periodic;
   int samples;
+  double scale = 1.0;
 };
 
 void add_ranges(const Symmetry& s, double diameter, std::vector<Range>& ranges) {
@@ -70,9 +72,9 @@ void add_ranges(const Symmetry& s, double diameter, std::vector<Range>& ranges) 
                       400)});
       break;
     case SymmetryKind::kSlide:
-      ranges.push_back(
-          {s.from, s.to, false,
-           std::clamp(static_cast<int>((s.to - s.from) / (0.1 * diameter)) + 2, 2, 50)});
+      ranges.push_back({s.from, s.to, false,
+                        std::clamp(static_cast<int>((s.to - s.from) / (0.1 * diameter)) + 2, 2, 50),
+                        diameter});
       break;
     case SymmetryKind::kBall:
       for (int d = 0; d < 3; ++d) ranges.push_back({-kPi, kPi, true, 9});
@@ -135,11 +137,8 @@ struct Placement::Impl {
       clamp(at);
       return distance.mean_square(placed(best.fold, at), pose);
     };
-    Eigen::VectorXd scale(n);  // steps of like effect: slides in lengths, turns in radians
-    Eigen::Index d = 0;
-    for (const Symmetry& s : truth.symmetries)
-      for (int i = 0; i < parameter_count(s); ++i)
-        scale[d++] = s.kind == SymmetryKind::kSlide ? diameter : 1.0;
+    Eigen::VectorXd scale(n);
+    for (Eigen::Index d = 0; d < n; ++d) scale[d] = ranges[static_cast<std::size_t>(d)].scale;
     double damping = 1e-6;
     for (int step = 0; step < 40; ++step) {
       const double h = 1e-4;
@@ -181,12 +180,16 @@ struct Placement::Impl {
     }
   }
 
-  Best closest(const RigidMotion& pose) const {
+  // Minima of the mean square, least first: from the best starts of all, and the best of each fold,
+  // which the largest distance may prefer.
+  std::vector<Best> minima(const RigidMotion& pose) const {
     constexpr std::size_t kStarts = 6;
     std::vector<Best> starts;  // best first
+    std::vector<Best> of_folds;
     std::vector<int> fold(folds.size(), 0);
     const auto n = static_cast<Eigen::Index>(ranges.size());
     for (bool more_folds = true; more_folds;) {
+      Best best;
       std::vector<int> sample(ranges.size(), 0);
       for (bool more = true; more;) {
         Parameters at = Parameters::Zero(std::max<Eigen::Index>(n, 1));
@@ -196,6 +199,7 @@ struct Placement::Impl {
           at[static_cast<Eigen::Index>(d)] = r.from + (r.to - r.from) * sample[d] / steps;
         }
         const double value = distance.mean_square(placed(fold, at), pose);
+        if (value < best.value) best = {value, fold, at};
         if (starts.size() < kStarts || value < starts.back().value) {
           if (starts.size() == kStarts) starts.pop_back();
           const auto place = std::upper_bound(starts.begin(), starts.end(), value,
@@ -204,11 +208,27 @@ struct Placement::Impl {
         }
         more = advance(sample, [&](std::size_t d) { return ranges[d].samples; });
       }
+      of_folds.push_back(std::move(best));
       more_folds = advance(fold, [&](std::size_t f) { return folds[f]; });
     }
+    for (Best& best : of_folds)
+      if (std::none_of(starts.begin(), starts.end(),
+                       [&](const Best& s) { return s.value == best.value && s.fold == best.fold; }))
+        starts.push_back(std::move(best));
     for (Best& start : starts) refine(pose, start);
-    return *std::min_element(starts.begin(), starts.end(),
-                             [](const Best& a, const Best& b) { return a.value < b.value; });
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Best& a, const Best& b) { return a.value < b.value; });
+    return starts;
+  }
+
+  // The least largest distance near the minima; none is below the root of its mean square.
+  double least_largest(const RigidMotion& pose, const std::vector<Best>& minima) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Best& start : minima) {
+      if (std::sqrt(start.value) >= least) break;
+      least = std::min(least, largest_near(pose, start));
+    }
+    return least;
   }
 
   // Counts `digits` up by one; false once all combinations have been.
@@ -230,7 +250,8 @@ struct Placement::Impl {
         for (const double sign : {1.0, -1.0}) {
           Parameters there = at;
           const Range& r = ranges[d];
-          there[static_cast<Eigen::Index>(d)] += sign * step * std::min(1.0, 0.5 * (r.to - r.from));
+          there[static_cast<Eigen::Index>(d)] +=
+              sign * step * std::min(r.scale, 0.5 * (r.to - r.from));
           clamp(there);
           const double value = largest_distance(hull, placed(start.fold, there), pose);
           if (value < best) {
@@ -267,13 +288,13 @@ Placement::Placement(Placement&&) noexcept = default;
 Placement& Placement::operator=(Placement&&) noexcept = default;
 
 PlacementError Placement::error(const RigidMotion& pose) const {
-  const Impl::Best best = impl_->closest(pose);
-  return {impl_->largest_near(pose, best) / impl_->diameter,
-          std::sqrt(best.value) / impl_->diameter};
+  const std::vector<Impl::Best> minima = impl_->minima(pose);
+  return {impl_->least_largest(pose, minima) / impl_->diameter,
+          std::sqrt(minima.front().value) / impl_->diameter};
 }
 
 RigidMotion Placement::nearest(const RigidMotion& pose) const {
-  const Impl::Best best = impl_->closest(pose);
+  const Impl::Best best = impl_->minima(pose).front();
   return impl_->placed(best.fold, best.at);
 }
 

@@ -83,7 +83,8 @@ TrueMate parse_mate(const Json& json, bool alone) {
   TrueMate mate;
   mate.fixed = alone ? json.value("fixed", "") : json.at("fixed").get<std::string>();
   mate.moving = alone ? json.value("moving", "") : json.at("moving").get<std::string>();
-  mate.name = json.value("name", mate.fixed + " " + mate.moving);
+  const bool unnamed = mate.fixed.empty() && mate.moving.empty();
+  mate.name = json.value("name", unnamed ? "" : mate.fixed + " " + mate.moving);
   mate.clearance = json.value("clearance", 0.0);
   const Json& pose = json.at("pose");
   const Eigen::Vector4d q = numbers<4>(pose, "rotation");
@@ -170,6 +171,11 @@ TrueMate find_true_mate(const std::vector<TrueMate>& mates, const std::string& f
       found.push_back(&mate);
   }
   if (found.size() == 1) return *found.front();
+  for (const TrueMate& mate : mates)
+    if (name.empty() && found.empty() && mate.fixed == moving && mate.moving == fixed)
+      throw InputError("true mates: expected a pair of fixed " + fixed + " and moving " + moving +
+                       ", found it the other way round (" + mate.name +
+                       "): swap the two inputs of the run");
   const std::string what = name.empty() ? fixed + " and " + moving : "'" + name + "'";
   throw InputError("true mates: expected one pair for " + what + ", found " +
                    std::to_string(found.size()) + "; the file has " + names);

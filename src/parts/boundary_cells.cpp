@@ -85,6 +85,7 @@ std::vector<GridBall> boundary_balls(const BoundaryPoints& boundary,
   for (std::size_t point = 0; point < open.size(); ++point)
     if (open[point] != 0 && boundary.outside(point) < growth)
       balls.push_back({boundary.node(point), growth - std::max(0.0, boundary.outside(point))});
+  for (GridBall& ball : balls) ball.added = true;
   return balls;
 }
 

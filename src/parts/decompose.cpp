@@ -3,6 +3,7 @@
 #include "mortise/parts/decompose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -71,9 +72,16 @@ Eigen::Vector4d in_solid_frame(const NodeField& field, const GridBall& ball) {
 
 Decomposition decompose(const Solid& solid, const DecomposeOptions& options) {
   check(options);
-  return decompose(distance_grid(solid, parts::cell_centers(solid.bounds(), options.grid),
-                                 {.threads = options.threads}),
-                   options);
+  const GridNodes nodes = parts::cell_centers(solid.bounds(), options.grid);
+  constexpr Eigen::Index kMostNodes = Eigen::Index{1} << 28;
+  if (nodes.count() > kMostNodes)
+    throw InputError("decompose: a grid of " + std::to_string(options.grid) + " a side has " +
+                     std::to_string(nodes.count()) + " nodes, more than 2^28 (4 GB); take one of " +
+                     std::to_string(static_cast<int>(
+                         options.grid * std::cbrt(static_cast<double>(kMostNodes) /
+                                                  static_cast<double>(nodes.count())))) +
+                     " or less");
+  return decompose(distance_grid(solid, nodes, {.threads = options.threads}), options);
 }
 
 Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& options) {
@@ -113,6 +121,8 @@ Decomposition decompose(const DistanceGrid& grid, const DecomposeOptions& option
   result.knots.points.resize(4, static_cast<Eigen::Index>(knots.size()));
   for (Eigen::Index i = 0; i < result.knots.size(); ++i)
     result.knots.points.col(i) = in_solid_frame(field, knots[i]);
+  result.added =
+      std::count_if(knots.begin(), knots.end(), [](const GridBall& b) { return b.added; });
   result.knots.weights = Eigen::VectorXcd::Ones(result.knots.size());
   if (options.weights == KnotWeights::kShare) {
     const std::vector<double> shares = parts::shares(field, knots);

@@ -12,6 +12,8 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/parts/sphere_tree.hpp"
+#include "parts/distances.hpp"
+#include "parts/grid_blocks.hpp"
 #include "parts/node_field.hpp"
 
 namespace mortise {
@@ -52,32 +54,60 @@ Eigen::Matrix3Xd union_boundary(const Eigen::Matrix4Xd& balls, const SphereTree&
   return columns(all);
 }
 
-// Distances from a body at many points, in pieces so that all threads work.
-Eigen::VectorXd distances(const Solid& solid, const Eigen::Matrix3Xd& points, int threads) {
-  Eigen::VectorXd result(points.cols());
-  constexpr Eigen::Index kChunk = 4096;
-  const Eigen::Index chunks = (points.cols() + kChunk - 1) / kChunk;
-  parallel_for(static_cast<std::size_t>(chunks), threads, [&](std::size_t chunk, int) {
-    const Eigen::Index first = static_cast<Eigen::Index>(chunk) * kChunk;
-    const Eigen::Index count = std::min(kChunk, points.cols() - first);
-    result.segment(first, count) = solid.signed_distance(points.middleCols(first, count), kExact);
+// What the nodes of a grid over the solid's box say: inside the solid how far the balls are, inside
+// the balls how far the solid is. Elsewhere within the balls the solid can only be nearer: a point
+// furthest from it lies on the balls' boundary or in the solid's convex hull.
+struct Depths {
+  double solid_beyond_balls = 0.0, balls_beyond_solid = 0.0;
+  Eigen::Index samples = 0;
+};
+
+Depths depths_at_nodes(const Solid& solid, const SphereTree& tree, const GridNodes& nodes,
+                       double balls_beyond_solid, int threads) {
+  const GridBlocks blocks(nodes);
+  std::vector<Depths> found(blocks.count());
+  // Outside the solid only what lies further out than the boundary's samples do is asked for.
+  const double band = std::max(1e-3 * nodes.spacing, balls_beyond_solid);
+  parallel_for(blocks.count(), threads, [&](std::size_t index, int) {
+    const Eigen::Matrix3Xd points = blocks.block(index).points;
+    const Eigen::VectorXd side = solid.signed_distance(points, band);
+    std::vector<Eigen::Vector3d> asked;
+    std::vector<bool> inside;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      if (side[i] < 0.0 || side[i] >= band) {
+        asked.emplace_back(points.col(i));
+        inside.push_back(side[i] < 0.0);
+      }
+    if (asked.empty()) return;
+    const Eigen::VectorXd beyond = distance_to_union(tree, columns(asked), 1);
+    std::vector<Eigen::Vector3d> filled;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const double d = beyond[static_cast<Eigen::Index>(i)];
+      if (inside[i]) {
+        found[index].solid_beyond_balls = std::max(found[index].solid_beyond_balls, d);
+        ++found[index].samples;
+      } else if (d < 0.0) {
+        filled.push_back(asked[i]);
+      }
+    }
+    found[index].samples += static_cast<Eigen::Index>(filled.size());
+    if (!filled.empty())
+      found[index].balls_beyond_solid = solid.signed_distance(columns(filled), kExact).maxCoeff();
   });
-  return result;
+  Depths all;
+  for (const Depths& one : found) {
+    all.solid_beyond_balls = std::max(all.solid_beyond_balls, one.solid_beyond_balls);
+    all.balls_beyond_solid = std::max(all.balls_beyond_solid, one.balls_beyond_solid);
+    all.samples += one.samples;
+  }
+  return all;
 }
 
-Eigen::Matrix3Xd nodes_inside(const Solid& solid, double spacing, int threads) {
+// Cell centres over the solid's box about `spacing` apart.
+GridNodes nodes_of(const Solid& solid, double spacing) {
   const Eigen::AlignedBox3d box = solid.bounds();
   const double cells = std::ceil(box.sizes().maxCoeff() / spacing);
-  const GridNodes nodes = parts::cell_centers(box, static_cast<int>(std::clamp(cells, 2.0, 512.0)));
-  // Only the sign counts.
-  const DistanceGrid grid =
-      distance_grid(solid, nodes, {.band = nodes.spacing, .threads = threads});
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < nodes.size.x(); ++i)
-    for (int j = 0; j < nodes.size.y(); ++j)
-      for (int k = 0; k < nodes.size.z(); ++k)
-        if (grid.values[nodes.index(i, j, k)] < 0.0F) points.push_back(nodes.node(i, j, k));
-  return columns(points);
+  return parts::cell_centers(box, static_cast<int>(std::clamp(cells, 2.0, 512.0)));
 }
 
 double largest(const Eigen::VectorXd& values) {
@@ -108,15 +138,18 @@ HausdorffDistance hausdorff_distance(const Eigen::Matrix4Xd& balls, const Solid&
       options.spacing > 0.0 ? options.spacing : solid.bounds().sizes().maxCoeff() / 200.0;
   const SphereTree tree = sphere_tree(balls);  // checks the balls
   const Eigen::Matrix3Xd boundary = union_boundary(balls, tree, result.spacing, options.threads);
-  const Eigen::VectorXd from_balls = distances(solid, boundary, options.threads);
+  const Eigen::VectorXd from_balls = distances(solid, boundary, kExact, options.threads);
   result.balls_beyond_solid = largest(from_balls);
   result.balls_to_surface = largest(from_balls.cwiseAbs());
 
   const Eigen::VectorXd from_surface = distance_to_union(tree, surface, options.threads);
-  const Eigen::Matrix3Xd inside = nodes_inside(solid, 2.0 * result.spacing, options.threads);
-  result.solid_beyond_balls =
-      std::max(largest(from_surface), largest(distance_to_union(tree, inside, options.threads)));
-  result.samples = boundary.cols() + surface.cols() + inside.cols();
+  const GridNodes nodes = nodes_of(solid, 2.0 * result.spacing);
+  result.node_spacing = nodes.spacing;
+  const Depths depths =
+      depths_at_nodes(solid, tree, nodes, result.balls_beyond_solid, options.threads);
+  result.solid_beyond_balls = std::max(largest(from_surface), depths.solid_beyond_balls);
+  result.balls_beyond_solid = std::max(result.balls_beyond_solid, depths.balls_beyond_solid);
+  result.samples = boundary.cols() + surface.cols() + depths.samples;
 
   // Outside the union that is the way to its boundary too; inside, the nearest sample of it is.
   std::vector<Eigen::Vector3d> buried;

@@ -30,6 +30,7 @@ struct NodeField : GridNodes {
 struct GridBall {
   Eigen::Vector3d center;
   double radius = 0.0;
+  bool added = false;  // for the boundary's sake, not by the reduction
 };
 
 // The centres of the cubic cells that fill a box, `grid` along its longest side.

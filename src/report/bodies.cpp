@@ -8,7 +8,6 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
-#include "mortise/parts/read_part.hpp"
 #include "report/heavy_atoms.hpp"
 
 namespace mortise {
@@ -118,9 +117,7 @@ ReportBody read_body(const BodyRecord& body, const Provenance& provenance, const
   ReportBody read;
   read.found = found;
   if (kind == "mate") {
-    ReadPartOptions options;
-    options.repair.allow_open = true;  // what a run could use, a report can show
-    ReadPartResult part = read_part(found, options);
+    ReadPartResult part = read_input_part(body, provenance, name, {found, force});
     read.mesh = std::move(part.mesh);
     read.unit = part.unit;
   } else if (kind == "dock") {

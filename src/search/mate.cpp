@@ -15,6 +15,7 @@
 #include "mortise/parts/sample_surface.hpp"
 #include "mortise/parts/skeletal_density.hpp"
 #include "mortise/search/cluster.hpp"
+#include "search/local_part.hpp"
 #include "search/mate_contact.hpp"
 #include "search/mate_directions.hpp"
 
@@ -36,24 +37,30 @@ void check_options(const MateOptions& o) {
   positive("skin", o.skin);
   positive("detail", o.detail);
   positive("tolerance", o.tolerance);
-  if (!(o.penalty > 1.0)) refuse("penalty must be > 1, got " + std::to_string(o.penalty));
-  if (!(o.feature >= 0.0)) refuse("feature must be >= 0, got " + std::to_string(o.feature));
-  if (!(o.skeletal >= 0.0 && std::isfinite(o.skeletal)))
-    refuse("skeletal must be >= 0, got " + std::to_string(o.skeletal));
+  const auto not_negative = [&](const char* name, double value) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      refuse(std::string(name) + " must be >= 0 and finite, got " + std::to_string(value));
+  };
+  if (!(o.penalty > 1.0) || !std::isfinite(o.penalty))
+    refuse("penalty must be > 1 and finite, got " + std::to_string(o.penalty));
+  not_negative("feature", o.feature);
+  not_negative("skeletal", o.skeletal);
+  not_negative("overlap", o.overlap);
+  not_negative("separation", o.separation);
+  not_negative("cluster radius", o.cluster_radius);
   if (!(o.flat >= 0.0 && o.flat <= 1.0))
     refuse("flat must be 0 to 1, got " + std::to_string(o.flat));
-  if (!(o.overlap >= 0.0)) refuse("overlap must be >= 0, got " + std::to_string(o.overlap));
   if (o.samples < 100) refuse("samples must be >= 100, got " + std::to_string(o.samples));
   if (o.polished < 1) refuse("polished must be >= 1, got " + std::to_string(o.polished));
   if (o.poses < 1) refuse("poses must be >= 1, got " + std::to_string(o.poses));
-  if (!(o.cluster_radius >= 0.0))
-    refuse("cluster radius must be >= 0, got " + std::to_string(o.cluster_radius));
-  if (o.axis && !(o.axis->fixed.norm() > 0.0 && o.axis->moving.norm() > 0.0))
-    refuse("an axis must not be 0");
+  if (o.axis && !(o.axis->fixed.norm() > 0.0 && o.axis->moving.norm() > 0.0 &&
+                  o.axis->fixed.allFinite() && o.axis->moving.allFinite()))
+    refuse("an axis must be finite and not 0");
 }
 
-// Nodes of a lattice over the field's grid and the distances there.
-Knots skin_knots(const DistanceField& field, const SampledSkinOptions& options) {
+// Nodes of a lattice over the field's grid and the distances there, carried to the input frame.
+Knots skin_knots(const char* name, const LocalFrame& frame, const DistanceField& field,
+                 const SampledSkinOptions& options) {
   const Eigen::Vector3d low = field.low();
   const Eigen::Vector3d extent = field.high() - low;
   std::vector<Eigen::Vector3d> nodes;
@@ -71,10 +78,21 @@ Knots skin_knots(const DistanceField& field, const SampledSkinOptions& options) 
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) = nodes[i];
-  return sample_double_skin(points,
-                            Eigen::Map<const Eigen::VectorXd>(
-                                distances.data(), static_cast<Eigen::Index>(distances.size())),
-                            options);
+  Knots knots;
+  try {
+    knots = sample_double_skin(points,
+                               Eigen::Map<const Eigen::VectorXd>(
+                                   distances.data(), static_cast<Eigen::Index>(distances.size())),
+                               options);
+  } catch (const InputError& e) {
+    throw InputError(
+        std::string("mate: the ") + name + " part at a grid step of " +
+        std::to_string(options.spacing) + " of the smaller part's diameter: " + e.what() +
+        "; take a finer step (spacing), and let the grid have more cells " + "(most cells)");
+  }
+  knots.points.topRows<3>() = frame.to_input(knots.points.topRows<3>());
+  knots.points.row(3) *= frame.unit;
+  return knots;
 }
 
 // The skeletal density [HA, Eq. 2-3] at the nodes of the skin: a field like any other, so that it
@@ -127,8 +145,9 @@ struct Placed {
 
 struct Mating::Impl {
   MateOptions options;
-  double unit = 0.0;  // smaller diameter
-  std::unique_ptr<ContactPair> pair;
+  LocalFrame fixed_frame, moving_frame;
+  static constexpr double unit = 1.0;  // smaller diameter, in the frames of `pair`
+  std::unique_ptr<ContactPair> pair;   // of the parts about their own centres
   Knots fixed_knots, moving_knots;
   RotationSet rotations;
   std::unique_ptr<RotationSearch> search;
@@ -200,55 +219,61 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   check_options(options);
   impl_->options = options;
   constexpr Eigen::Index kProbe = 2000;
-  SurfaceSamples fixed_samples = sample_surface(fixed.mesh, kProbe);
-  SurfaceSamples moving_samples = sample_surface(moving.mesh, kProbe);
-  impl_->unit = std::min(diameter_of(fixed.mesh.vertices), diameter_of(moving.mesh.vertices));
-  const double unit = impl_->unit;
+  const double length =
+      std::min(diameter_of(fixed.mesh.vertices), diameter_of(moving.mesh.vertices));
+  impl_->fixed_frame = {fixed.solid->bounds().center(), length};
+  impl_->moving_frame = {moving.solid->bounds().center(), length};
+  const MatePart local_fixed = local_part(fixed, impl_->fixed_frame);
+  const MatePart local_moving = local_part(moving, impl_->moving_frame);
+  SurfaceSamples fixed_samples = sample_surface(local_fixed.mesh, kProbe);
+  SurfaceSamples moving_samples = sample_surface(local_moving.mesh, kProbe);
   // One density of samples for both surfaces, within reason.
   const double smaller = std::min(fixed_samples.area, moving_samples.area);
   const auto count = [&](double area) {
     return static_cast<Eigen::Index>(std::min(20.0, area / smaller) * options.samples);
   };
-  fixed_samples = sample_surface(fixed.mesh, count(fixed_samples.area));
-  moving_samples = sample_surface(moving.mesh, count(moving_samples.area));
+  fixed_samples = sample_surface(local_fixed.mesh, count(fixed_samples.area));
+  moving_samples = sample_surface(local_moving.mesh, count(moving_samples.area));
   // A fixed part much larger than the moving one needs a box that a grid as fine would make slow.
-  const double reach = diameter_of(moving.mesh.vertices) + 2.0 * options.skin * unit;
-  const double box = (fixed.solid->bounds().sizes().array() + reach).prod();
-  const double coarser =
-      std::max(1.0, std::cbrt(box / options.most_cells) / (options.spacing * unit));
-  const double step = coarser * options.spacing * unit;
-  const double offset = coarser * options.skin * unit;
-  const double margin = std::max(offset + 2.0 * step, 16.0 * options.tolerance * unit);
+  const double reach = diameter_of(local_moving.mesh.vertices) + 2.0 * options.skin;
+  const double box = (local_fixed.solid->bounds().sizes().array() + reach).prod();
+  const double coarser = std::max(1.0, std::cbrt(box / options.most_cells) / options.spacing);
+  const double step = coarser * options.spacing;
+  const double offset = coarser * options.skin;
+  const double margin = std::max(offset + 2.0 * step, 16.0 * options.tolerance);
   const auto body = [&](const MatePart& part, const SurfaceSamples& samples) {
     // As fine as asked, but for a part so much the larger that its grid would not fit.
     constexpr double kMostNodes = 1.2e7;
     const Eigen::AlignedBox3d bounds = part.solid->bounds();
     const double volume = (bounds.sizes().array() + 2.0 * margin).prod();
-    const double detail = std::max(options.detail * unit, std::cbrt(volume / kMostNodes));
+    const double detail = std::max(options.detail, std::cbrt(volume / kMostNodes));
     return ContactBody(samples, DistanceField(*part.solid, detail, margin, options.threads),
                        bounds.center());
   };
-  impl_->pair =
-      std::make_unique<ContactPair>(body(fixed, fixed_samples), body(moving, moving_samples));
+  impl_->pair = std::make_unique<ContactPair>(body(local_fixed, fixed_samples),
+                                              body(local_moving, moving_samples));
   const SampledSkinOptions skin{.spacing = step,
                                 .offset = offset,
                                 .penalty = options.penalty,
                                 .feature = options.feature,
                                 .feature_radius = 2.0 * offset};
-  impl_->fixed_knots = skin_knots(impl_->pair->fixed().field, skin);
-  impl_->moving_knots = skin_knots(impl_->pair->moving().field, skin);
+  impl_->fixed_knots = skin_knots("fixed", impl_->fixed_frame, impl_->pair->fixed().field, skin);
+  impl_->moving_knots =
+      skin_knots("moving", impl_->moving_frame, impl_->pair->moving().field, skin);
   SearchOptions search;
-  search.spacing = skin.spacing;
-  search.cutoff = 0.75 / skin.spacing;
+  search.spacing = step * length;
+  search.cutoff = 0.75 / search.spacing;
   search.per_rotation = options.per_rotation;
-  search.separation = options.separation * unit;
+  search.separation = options.separation * length;
   search.threads = options.threads;
+  // In units of the grid step the scores fit single precision, whatever the parts' unit.
+  const double weight = std::pow(search.spacing, -3);
   std::vector<Channel> channels{
-      sampled_channel("skin", 1.0, impl_->fixed_knots, impl_->moving_knots, skin.spacing)};
+      sampled_channel("skin", weight, impl_->fixed_knots, impl_->moving_knots, search.spacing)};
   if (options.skeletal > 0.0)
     channels.push_back(sampled_channel(
-        "skeletal", options.skeletal, skeletal_knots(fixed, impl_->fixed_knots, options),
-        skeletal_knots(moving, impl_->moving_knots, options), skin.spacing));
+        "skeletal", weight * options.skeletal, skeletal_knots(fixed, impl_->fixed_knots, options),
+        skeletal_knots(moving, impl_->moving_knots, options), search.spacing));
   // The search's frame depends on the knots alone: a search on a coarse grid tells it.
   SearchOptions coarse = search;
   coarse.spacing = 4.0 * search.spacing;
@@ -260,8 +285,9 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
     impl_->rotations = axial_rotations(*options.axis, options.rotations, search_from_fixed);
   } else {
     impl_->rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
-    const Eigen::Matrix4Xd aligned = aligned_rotations(
-        find_directions(fixed.mesh), find_directions(moving.mesh), options.turns, options.aligned);
+    const Eigen::Matrix4Xd aligned =
+        aligned_rotations(find_directions(local_fixed.mesh), find_directions(local_moving.mesh),
+                          options.turns, options.aligned);
     const Eigen::Index regular = impl_->rotations.size();
     impl_->rotations.quaternions.conservativeResize(4, regular + aligned.cols());
     for (Eigen::Index i = 0; i < aligned.cols(); ++i) {
@@ -282,18 +308,24 @@ RotationSearch& Mating::search() { return *impl_->search; }
 const RotationSet& Mating::rotations() const { return impl_->rotations; }
 const Knots& Mating::fixed_knots() const { return impl_->fixed_knots; }
 const Knots& Mating::moving_knots() const { return impl_->moving_knots; }
-double Mating::smaller_diameter() const { return impl_->unit; }
+double Mating::smaller_diameter() const { return impl_->fixed_frame.unit; }
 
 Pose Mating::judge(const RigidMotion& motion) const {
   Pose pose;
   pose.moving_in_fixed = motion;
-  const auto channels = impl_->channels(motion, impl_->options.tolerance * impl_->unit, 1.0);
+  const auto channels =
+      impl_->channels(local_motion(impl_->fixed_frame, impl_->moving_frame, motion),
+                      impl_->options.tolerance * impl_->unit, 1.0);
   pose.channels = {channels[0], channels[1]};
   pose.score = channels[0] + channels[1];
   return pose;
 }
 
-RigidMotion Mating::polish(const RigidMotion& motion) const { return impl_->polish(motion); }
+RigidMotion Mating::polish(const RigidMotion& motion) const {
+  const Impl& m = *impl_;
+  return input_motion(m.fixed_frame, m.moving_frame,
+                      m.polish(local_motion(m.fixed_frame, m.moving_frame, motion)));
+}
 
 PoseList Mating::rank() const {
   const Impl& run = *impl_;
@@ -301,7 +333,9 @@ PoseList Mating::rank() const {
   const double tolerance = run.options.tolerance * unit;
   std::vector<Placed> placed;
   for (const Candidate& c : run.search->candidates())
-    placed.push_back({run.search->moving_in_fixed(c), c.rotation_index});
+    placed.push_back(
+        {local_motion(run.fixed_frame, run.moving_frame, run.search->moving_in_fixed(c)),
+         c.rotation_index});
   const auto keep = static_cast<std::size_t>(run.options.polished);
   const auto as_it_is = [](const RigidMotion& m) { return m; };
   // Coarse to fine, few points to many, many placements to few.
@@ -324,7 +358,7 @@ PoseList Mating::rank() const {
       run.options.cluster_radius, static_cast<std::size_t>(run.options.poses));
   PoseList best{{"contact", "penetration"}, {}};
   for (const Placed& p : placed) {
-    best.poses.push_back(judge(p.motion));
+    best.poses.push_back(judge(input_motion(run.fixed_frame, run.moving_frame, p.motion)));
     best.poses.back().rotation_index = p.rotation;
     best.poses.back().cluster = static_cast<int>(best.poses.size()) - 1;
   }

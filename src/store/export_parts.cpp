@@ -2,14 +2,14 @@
 // Placed parts as STL, PLY and STEP.
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/format_part.hpp"
-#include "mortise/parts/read_part.hpp"
 #include "mortise/store/export.hpp"
 
 namespace mortise {
 namespace {
 
-ReadPartResult read(const std::string& path) {
-  return read_part(path, {.repair = {.allow_open = true, .find_self_intersections = false}});
+void expect_parts(const Run& run) {
+  if (run.kind != "mate")
+    throw InputError("formats stl, ply and step are for parts; this is a " + run.kind + " run");
 }
 
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
@@ -23,28 +23,42 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
+ExportParts read_export_parts(const Run& run, const LocateOptions& fixed,
+                              const LocateOptions& moving, const ExportOptions& options) {
+  expect_parts(run);
+  ExportParts parts;
+  if (options.complex) parts.fixed = read_input_part(run.fixed, run.provenance, "fixed", fixed);
+  parts.moving_path = locate_input(run.moving, run.provenance, "moving", moving);
+  parts.moving = read_input_part(run.moving, run.provenance, "moving", moving);
+  return parts;
+}
+
 std::string export_part(const Run& run, ExportFormat format, std::size_t pose,
-                        const std::string& fixed_path, const std::string& moving_path,
-                        const ExportOptions& options) {
-  if (run.kind != "mate")
-    throw InputError("formats stl, ply and step are for parts; this is a " + run.kind + " run");
+                        const ExportParts& parts, const ExportOptions& options) {
+  expect_parts(run);
   if (pose >= run.poses.poses.size())
     throw InputError("export: pose " + std::to_string(pose + 1) + ": the run holds " +
                      std::to_string(run.poses.poses.size()) + " poses");
   const RigidMotion& motion = run.poses.poses[pose].moving_in_fixed;
-  if (format == ExportFormat::kStep && !options.complex && is_step_file(moving_path))
-    return format_moved_step(moving_path, motion);
-  const ReadPartResult moving = read(moving_path);
-  TriangleMesh placed = moving.mesh;
+  if (format == ExportFormat::kStep && !options.complex && is_step_file(parts.moving_path))
+    return format_moved_step(parts.moving_path, motion);
+  TriangleMesh placed = parts.moving.mesh;
   placed.vertices = motion * placed.vertices;
-  if (options.complex) placed = join(read(fixed_path).mesh, placed);
+  std::string unit = parts.moving.unit;
+  if (options.complex) {
+    const std::string& other = parts.fixed.unit;
+    if (!unit.empty() && !other.empty() && unit != other)
+      throw InputError("export: the fixed part is in " + other + ", the moving one in " + unit);
+    if (unit.empty()) unit = other;
+    placed = join(parts.fixed.mesh, placed);
+  }
   switch (format) {
     case ExportFormat::kStl:
       return format_stl(placed);
     case ExportFormat::kPly:
       return format_ply(placed);
     case ExportFormat::kStep:
-      return format_step(placed, {}, moving.unit.empty() ? "mm" : moving.unit);
+      return format_step(placed, {}, unit.empty() ? "mm" : unit);
     default:
       throw InputError("export: expected stl, ply or step for parts");
   }

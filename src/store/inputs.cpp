@@ -3,6 +3,7 @@
 #include "mortise/store/inputs.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "mortise/core/errors.hpp"
@@ -54,6 +55,17 @@ Molecule read_input_molecule(const BodyRecord& body, const Provenance& provenanc
     spec = parse_molecule_spec(body.spec);
   spec.path = path;
   return read_molecule(spec, {.keep_hydrogens = true}).molecule;
+}
+
+ReadPartResult read_input_part(const BodyRecord& body, const Provenance& provenance,
+                               const std::string& name, const LocateOptions& options) {
+  // What a run could use can be used again, whatever else a later program knows of its options.
+  ReadPartOptions read{.repair = {.allow_open = true, .find_self_intersections = false}};
+  const nlohmann::json recorded =
+      nlohmann::json::parse(provenance.options_json, nullptr, /*allow_exceptions=*/false);
+  if (recorded.is_object() && recorded.contains("deviation") && recorded["deviation"].is_number())
+    read.absolute_deviation = recorded["deviation"].get<double>();
+  return read_part(locate_input(body, provenance, name, options), read);
 }
 
 }  // namespace mortise

@@ -32,6 +32,7 @@ void write_body(Writer& file, const std::string& group, const BodyRecord& body) 
   file.attribute(group, "path", body.path);
   file.attribute(group, "spec", body.spec);
   file.attribute(group, "sha256", body.sha256);
+  if (!body.unit.empty()) file.attribute(group, "unit", body.unit);
   hdf5::write_knots(file, group, body.knots);
   const Eigen::Quaterniond& q = body.search_from_input.rotation;
   const double rotation[4] = {q.w(), q.x(), q.y(), q.z()};
@@ -44,6 +45,7 @@ BodyRecord read_body(const Reader& file, const std::string& group) {
   body.path = file.text(group, "path");
   body.spec = file.text(group, "spec");
   body.sha256 = file.text(group, "sha256");
+  if (file.has_attribute(group, "unit")) body.unit = file.text(group, "unit");
   body.knots = hdf5::read_knots(file, group);
   const std::vector<double> q = file.reals(group + "/search_rotation", {4});
   const std::vector<double> t = file.reals(group + "/search_translation", {3});

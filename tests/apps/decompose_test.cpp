@@ -19,6 +19,22 @@ class Decompose : public Program {
                           format_ply(shapes::without_last(shapes::icosphere(1.0, 6), 240)));
     write_file_atomically(path("empty.stl"), "");
   }
+  // Until the program, no longer the shell, has said what SIGINT and SIGTERM are to do.
+  static bool wait_until_it_listens(pid_t process) {
+    for (int i = 0; i < 30000; ++i) {
+      std::ifstream status("/proc/" + std::to_string(process) + "/status");
+      std::string line;
+      bool ours = false;
+      while (std::getline(status, line)) {
+        ours = ours || line == "Name:\tmortise";
+        if (!ours || line.rfind("SigCgt:", 0) != 0) continue;
+        const unsigned long caught = std::stoul(line.substr(7), nullptr, 16);
+        if ((caught >> (SIGINT - 1) & 1U) != 0 && (caught >> (SIGTERM - 1) & 1U) != 0) return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
 };
 
 TEST_F(Decompose, WritesBallsTreeAndFigures) {
@@ -47,7 +63,8 @@ TEST_F(Decompose, WritesBallsTreeAndFigures) {
 
 TEST_F(Decompose, OptionsReachTheLibraryAndThreadsDoNotMatter) {
   const auto n3 = [&](const std::string& options) {
-    return json("decompose torus.stl -o t.h5 --grid 24 --no-hausdorff --quiet " + options)["n3"]
+    return json("decompose torus.stl -o t.h5 --force --grid 24 --no-hausdorff --quiet " +
+                options)["n3"]
         .get<long>();
   };
   const long cover = n3("");
@@ -62,11 +79,64 @@ TEST_F(Decompose, OptionsReachTheLibraryAndThreadsDoNotMatter) {
 
   ::setenv("SOURCE_DATE_EPOCH", "0", 1);
   const auto knots = [&](const std::string& threads) {
-    must("decompose torus.stl -o t.h5 --grid 24 --quiet --no-hausdorff --threads " + threads);
+    must("decompose torus.stl -o t.h5 --force --grid 24 --quiet --no-hausdorff --threads " +
+         threads);
     return read_knots_file(path("t.h5")).knots.points;
   };
   EXPECT_EQ(knots("1"), knots("2"));
   ::unsetenv("SOURCE_DATE_EPOCH");
+}
+
+TEST_F(Decompose, OverwritesNoInputAndNoOlderAnswer) {
+  const std::string torus = read_whole_file(path("torus.stl"));
+  std::filesystem::create_symlink(path("torus.stl"), path("alias.stl"));
+  for (const char* same : {"torus.stl", "./torus.stl", "alias.stl"}) {
+    expect_user_error(std::string("decompose torus.stl --grid 8 --force -o ") + same, "an input");
+    expect_user_error(std::string("decompose torus.stl --grid 8 --force -o t.h5 --ply ") + same,
+                      "an input");
+  }
+  EXPECT_EQ(read_whole_file(path("torus.stl")), torus);
+  expect_user_error("decompose torus.stl --grid 8 -o t.h5 --ply ./t.h5", "another file");
+  EXPECT_FALSE(std::filesystem::exists(path("t.h5")));
+  must("decompose torus.stl --grid 8 -o t.h5 --ply t.ply --quiet");
+  const std::string older = read_whole_file(path("t.h5"));
+  expect_user_error("decompose torus.stl --grid 9 -o t.h5", "--force replaces it");
+  expect_user_error("decompose torus.stl --grid 9 -o u.h5 --ply t.ply", "--force replaces it");
+  EXPECT_EQ(read_whole_file(path("t.h5")), older);
+  must("decompose torus.stl --grid 9 -o t.h5 --ply t.ply --force --quiet");
+  EXPECT_NE(read_whole_file(path("t.h5")), older);
+}
+
+TEST_F(Decompose, CtrlCEndsItAtOnceAndWritesNothing) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t process = start("decompose torus.stl -o t.h5 --grid 512");
+    ASSERT_TRUE(wait_until_it_listens(process));
+    const auto sent = std::chrono::steady_clock::now();
+    ::kill(process, signal);
+    const Outcome outcome = finish(process);
+    EXPECT_EQ(outcome.code, 130) << outcome.out << outcome.error;
+    EXPECT_THAT(outcome.error, ::testing::HasSubstr("mortise: interrupted: n"));
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(5));
+    EXPECT_FALSE(std::filesystem::exists(path("t.h5")));
+  }
+}
+
+TEST_F(Decompose, CountsTheBallsAddedAtTheBoundary) {
+  // At two nodes a side one ball is left of those inside, and the ends need their own.
+  write_file_atomically(path("rod.stl"), format_stl(shapes::cube(1.0)));
+  for (const char* part : {"torus.stl", "rod.stl"})
+    for (const int grid : {2, 3, 12}) {
+      const std::string command = std::string("decompose ") + part + " -o t.h5 --force --grid " +
+                                  std::to_string(grid) + " --no-hausdorff";
+      const nlohmann::json figures = json(command);
+      const long kept = figures["n3"].get<long>() - figures["n_boundary"].get<long>();
+      EXPECT_LE(kept, figures["n1"].get<long>()) << command;
+      EXPECT_GT(kept, 0) << command;
+      EXPECT_THAT(must(command).out,
+                  ::testing::HasSubstr(figures["n3"].dump() + ": " + std::to_string(kept) + " of " +
+                                       figures["n1"].dump() + " inner ones and " +
+                                       figures["n_boundary"].dump() + " added"));
+    }
 }
 
 TEST_F(Decompose, SaysWhatIsAtFault) {
@@ -75,6 +145,8 @@ TEST_F(Decompose, SaysWhatIsAtFault) {
   expect_user_error("decompose open.ply -o t.h5", "open.ply");
   expect_user_error("decompose torus.stl -o t.h5 --grid 1", "--grid");
   expect_user_error("decompose torus.stl -o t.h5 --mu 2", "--mu");
+  write_file_atomically(path("cube.stl"), format_stl(shapes::cube(1.0)));
+  expect_user_error("decompose cube.stl -o t.h5 --grid 1024", "take one of 645 or less");
   expect_user_error("decompose torus.stl -o t.h5 --method spheres", "--method");
   expect_user_error("decompose torus.stl -o no/such/place/t.h5 --grid 8", "no/such/place");
   expect_user_error("decompose torus.stl", "--output");

@@ -64,6 +64,76 @@ TEST_F(Mate, FindsADovetailFromARandomStartAndGoesOnWithIt) {
                     "--reference-pose");
 }
 
+TEST_F(Mate, ExportOverwritesNoInputByANumberedName) {
+  fs::copy_file(path("dovetail_tail.stl"), path("b_2.stl"));
+  must(
+      "mate dovetail_socket_close.stl b_2.stl -o run.h5 --rotations 1 --polished 20 --poses 20 "
+      "--samples 1000 --check 0 --quiet");
+  const std::string before = read_whole_file(path("b_2.stl"));
+  expect_user_error("export run.h5 --format stl --top 2 -o b.stl", "b_2.stl");
+  EXPECT_EQ(read_whole_file(path("b_2.stl")), before);
+  EXPECT_FALSE(fs::exists(path("b_1.stl")));  // nothing is written before all names are good
+  must("export run.h5 --format stl --top 2 -o c.stl");
+  EXPECT_TRUE(fs::exists(path("c_1.stl")) && fs::exists(path("c_2.stl")));
+  expect_user_error("export run.h5 --format stl --top 2 -o -", "--pose");
+
+  // What does nothing for parts is refused; a truth without names takes the run's.
+  expect_user_error("evaluate run.h5 --mates mates.json --fixed b_2.stl", "--fixed");
+  expect_user_error("evaluate run.h5 --mates mates.json --interface 3", "--interface");
+  expect_user_error("evaluate run.h5 --mates mates.json --reference-fixed a.pdb",
+                    "--reference-fixed");
+  write_file_atomically(path("one.json"),
+                        R"({"pose": {"rotation": [1, 0, 0, 0], "translation": [0, 0, 0]}})");
+  EXPECT_EQ(json("evaluate run.h5 --mates one.json")["pair"], "dovetail_socket_close b_2");
+}
+
+TEST_F(Mate, UnitsOfStepFilesAreComparedAndKept) {
+  // The same solid, its file in centimetres.
+  std::string step = read_whole_file(path("dovetail_tail.step"));
+  const std::size_t at = step.find(".MILLI.");
+  ASSERT_NE(at, std::string::npos);
+  write_file_atomically(path("centi.step"), step.replace(at, 7, ".CENTI."));
+  expect_user_error("mate dovetail_tail.step centi.step -o run.h5", "in cm");
+  EXPECT_FALSE(fs::exists(path("run.h5")));
+  for (const char* file : {"round_peg_pin.step", "round_peg_hole_close.stl"})
+    fs::copy_file(fs::path(MORTISE_SOURCE_DIR) / "parts" / file, scratch_ / file);
+  const nlohmann::json found = json(
+      "mate round_peg_hole_close.stl round_peg_pin.step -o run.h5 --deviation 0.5 "
+      "--rotations 1 --aligned 1 --turns 0 --polished 5 --poses 5 --samples 500 --check 0");
+  EXPECT_THAT(found["decisions"].dump(), HasSubstr("taken as mm"));
+  const mortise::Run run = read_run(path("run.h5"));
+  EXPECT_EQ(run.fixed.unit, "");
+  EXPECT_EQ(run.moving.unit, "mm");
+  // Exported on the mesh that the run used, not on the finer one that is the default.
+  must("export run.h5 --format stl --pose 1 -o out.stl");
+  const Eigen::Index used =
+      read_part(path("round_peg_pin.step"), {.absolute_deviation = 0.5}).mesh.size();
+  EXPECT_EQ(read_part(path("out.stl")).mesh.size(), used);
+  EXPECT_GT(read_part(path("round_peg_pin.step")).mesh.size(), used);
+}
+
+TEST_F(Mate, SaysWhereTheGridIsCoarserThanAsked) {
+  const nlohmann::json found = json(mate("run.h5", "--most-cells 5000"));
+  EXPECT_THAT(found["decisions"].dump(), HasSubstr("--most-cells 5000"));
+}
+
+TEST_F(Mate, CtrlCIsObeyedWhileRankingAndNothingOfTheSearchIsLost) {
+  must(mate("whole.h5", "--quiet"));
+  // The search is over when its file appears: what remains is ranking.
+  const pid_t process = start(mate("run.h5", "--threads 1 --checkpoint 1000"));
+  ASSERT_TRUE(wait_for("run.h5"));
+  ::kill(process, SIGINT);
+  const Outcome stopped = finish(process);
+  ASSERT_EQ(stopped.code, 130) << stopped.error;
+  EXPECT_THAT(stopped.error, HasSubstr("the search is in run.h5; go on with"));
+  const mortise::Run part = read_run(path("run.h5"));
+  EXPECT_FALSE(part.complete);
+  ASSERT_TRUE(part.checkpoint.has_value());
+  for (const std::uint8_t done : part.rotations.done) EXPECT_EQ(done, 1);
+  must("mate -o run.h5 --resume --quiet");
+  EXPECT_EQ(datasets(read_run(path("run.h5"))), datasets(read_run(path("whole.h5"))));
+}
+
 TEST_F(Mate, JsonHasTheKeysScriptsRelyOn) {
   const nlohmann::json json = this->json(mate("run.h5", "--axis 0,0,1:0,0,1"));
   for (const char* key : {"rotations", "poses", "seconds", "fft_ratio", "best_score",
@@ -91,6 +161,9 @@ TEST_F(Mate, SaysWhatIsWrong) {
   expect_user_error("mate dovetail_tail.stl -o run.h5", "expected two inputs");
   expect_user_error("mate dovetail_tail.stl none.stl -o run.h5", "none.stl");
   expect_user_error(mate("run.h5", "--spacing 0"), "spacing");
+  expect_user_error(mate("run.h5", "--overlap inf"), "overlap must be >= 0 and finite");
+  EXPECT_FALSE(fs::exists(path("run.h5")));
+  EXPECT_THAT(must("mate --help").out, HasSubstr("its diagonal times 0.0005"));
   expect_user_error(mate("run.h5", "--axis 1,2"), "--axis");
   expect_user_error("mate dovetail_tail.stl mates.json -o dovetail_tail.stl --force", "an input");
 }

@@ -147,6 +147,53 @@ TEST(Placement, IsNoWorseThanDenseSampling) {
   }
 }
 
+// The fold that is best in the mean need not be the one that is best at the worst point.
+TEST(Placement, LargestIsTheLeastOfAllFolds) {
+  const TriangleMesh mesh = box(0.3, 1.3, 2.0);
+  TrueMate truth;
+  truth.symmetries = {each_kind()[1]};
+  const Placement placement(mesh, truth);
+  std::mt19937 random(16);
+  int elsewhere = 0;
+  for (int i = 0; i < 200; ++i) {
+    const RigidMotion pose = random_motion(random, 3.0, 2.0);
+    double least = std::numeric_limits<double>::infinity();
+    for (double fold = 0.0; fold < 5.0; ++fold) {
+      const Eigen::Matrix3Xd step =
+          member(truth.symmetries[0], &fold) * mesh.vertices - pose * mesh.vertices;
+      least = std::min(least, step.colwise().norm().maxCoeff());
+    }
+    EXPECT_NEAR(placement.error(pose).largest, least / placement.diameter(), 1e-12);
+    const Eigen::Matrix3Xd of_mean = placement.nearest(pose) * mesh.vertices - pose * mesh.vertices;
+    elsewhere += of_mean.colwise().norm().maxCoeff() > 1.0001 * least ? 1 : 0;
+  }
+  EXPECT_GT(elsewhere, 0);  // else this tests nothing
+}
+
+TEST(Placement, IsTheSameInAnyUnit) {
+  const std::vector<Symmetry> kinds = each_kind();
+  std::mt19937 random(17);
+  const RigidMotion where = random_motion(random, 2.0, 1.0);
+  const RigidMotion pose = compose(random_motion(random, 0.3, 0.3), where);
+  const auto error = [&](double scale) {
+    TriangleMesh mesh = box(1.0, 1.3, 2.0);
+    mesh.vertices *= scale;
+    TrueMate truth;
+    truth.moving_in_fixed = {where.rotation, scale * where.translation};
+    Symmetry turn = kinds[0], slide = kinds[3];
+    turn.point *= scale;
+    slide.from *= scale;
+    slide.to *= scale;
+    truth.symmetries = {turn, slide};
+    return Placement(mesh, truth).error({pose.rotation, scale * pose.translation});
+  };
+  const PlacementError one = error(1.0);
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+    EXPECT_NEAR(error(scale).largest, one.largest, 1e-6) << scale;
+    EXPECT_NEAR(error(scale).rms, one.rms, 1e-8) << scale;
+  }
+}
+
 TEST(Placement, SlidesEndWhereTheyEnd) {
   TrueMate truth;
   truth.symmetries = {each_kind()[3]};
@@ -193,6 +240,21 @@ TEST(TrueMates, ReadsAFileAndNamesWhatIsWrong) {
                  "twist");
   std::filesystem::remove(path);
   EXPECT_THROW((void)read_true_mates(path), FileError);
+}
+
+TEST(TrueMates, SaysThatAPairIsThereTheOtherWayRound) {
+  std::vector<TrueMate> mates(2);
+  mates[0].name = "peg in hole";
+  mates[0].fixed = "hole";
+  mates[0].moving = "peg";
+  mates[1].name = mates[1].fixed = "other";
+  EXPECT_EQ(find_true_mate(mates, "hole", "peg").name, "peg in hole");
+  try {
+    (void)find_true_mate(mates, "peg", "hole");
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("the other way round (peg in hole)"));
+  }
 }
 
 }  // namespace

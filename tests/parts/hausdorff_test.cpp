@@ -51,6 +51,38 @@ TEST(Hausdorff, OfSurfacesSeesAVoidThatThatOfSolidsHardlyDoes) {
   EXPECT_GE(d.balls_to_surface, 0.79);
 }
 
+// A ball of radius 1 with a hollow of radius 0.6.
+class HollowBall : public Solid {
+ public:
+  [[nodiscard]] Eigen::AlignedBox3d bounds() const override {
+    return {Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(1.0)};
+  }
+  [[nodiscard]] Eigen::VectorXd signed_distance(const Eigen::Matrix3Xd& points,
+                                                double) const override {
+    const Eigen::ArrayXd r = points.colwise().norm().transpose();
+    return (r - 1.0).max(0.6 - r);
+  }
+};
+
+TEST(Hausdorff, OfBallsThatFillACavityIsFromItsMiddle) {
+  // One ball over all of a ball with a hollow of radius 0.6: its own boundary is on the solid's.
+  const HollowBall solid;
+  const HausdorffDistance d = hausdorff_distance(one_ball(0.0, 1.0), solid,
+                                                 surface_samples(solid, 0.05), {.spacing = 0.05});
+  EXPECT_LE(d.balls_beyond_solid, 0.6 + 1e-9);
+  EXPECT_GE(d.balls_beyond_solid, 0.6 - 0.87 * d.node_spacing);
+  EXPECT_NEAR(d.node_spacing, 0.1, 1e-12);
+  EXPECT_LE(d.balls_to_surface, 1e-6);
+}
+
+TEST(Hausdorff, SaysHowFarApartItsNodesAre) {
+  const auto solid = make_box({0, 0, 0}, {10.0, 0.011, 0.011});
+  const HausdorffDistance d = hausdorff_distance(Eigen::Vector4d(5, 0, 0, 0.02), *solid,
+                                                 Eigen::Vector3d(0, 0, 0), {.spacing = 0.005});
+  EXPECT_EQ(d.spacing, 0.005);
+  EXPECT_NEAR(d.node_spacing, 10.0 / 512, 1e-12);  // not the 0.01 asked for
+}
+
 TEST(Hausdorff, OfMeshesSamplesEveryTriangle) {
   const TriangleMesh cube = shapes::cube(2.0);
   const Eigen::Matrix3Xd samples = surface_samples(cube, 0.1);

@@ -3,107 +3,31 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <random>
 #include <set>
 
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/read_part.hpp"
+#include "mortise/parts/sample_surface.hpp"
 
 namespace mortise {
 namespace {
 
-using Eigen::Vector3d;
-using nlohmann::json;
-using std::numbers::pi;
-
 const std::string kFolder = MORTISE_SOURCE_DIR "/parts/";
 
-json pairs() {
-  std::ifstream file(kFolder + "mates.json");
-  return json::parse(file).at("pairs");
-}
-
-Vector3d vector_of(const json& j) {
-  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
-}
-
-RigidMotion turn_about(const Vector3d& point, const Vector3d& direction, double angle) {
-  RigidMotion m;
-  m.rotation = Eigen::AngleAxisd(angle, direction.normalized());
-  m.translation = point - m.rotation * point;
-  return m;
-}
+std::vector<TrueMate> pairs() { return read_true_mates(kFolder + "mates.json"); }
 
 /// The member of a family at `u` in [0, 1]; u = 0 and 1 are the ends of a range.
-RigidMotion member(const json& s, double u) {
-  const std::string kind = s.at("kind");
-  const Vector3d point = s.contains("point") ? vector_of(s["point"]) : Vector3d::Zero();
-  const Vector3d direction =
-      s.contains("direction") ? vector_of(s["direction"]) : Vector3d(0.6, 0.0, 0.8);
-  if (kind == "turn" || kind == "ball") return turn_about(point, direction, 2 * pi * u);
-  if (kind == "fold") {
-    const int order = s.at("order");
-    return turn_about(point, direction, 2 * pi * std::round(u * order) / order);
+RigidMotion member_at(const Symmetry& s, double u) {
+  if (s.kind == SymmetryKind::kFold) {
+    const double number = std::round(u * s.order);
+    return member(s, &number);
   }
-  if (kind == "roll") {
-    const double angle = 2 * pi * u;
-    return compose(turn_about(point, direction, angle),
-                   turn_about(vector_of(s["moving_point"]), vector_of(s["moving_direction"]),
-                              angle * s["ratio"].get<double>()));
-  }
-  const double a = s["from"].get<double>() + u * (s["to"].get<double>() - s["from"].get<double>());
-  if (kind == "slide") {
-    RigidMotion m;
-    m.translation = a * direction;
-    return m;
-  }
-  EXPECT_EQ(kind, "screw");
-  RigidMotion m = turn_about(point, direction, a);
-  m.translation += s["pitch"].get<double>() * a / (2 * pi) * direction;
-  return m;
-}
-
-RigidMotion pose_of(const json& pair) {
-  const auto& q = pair.at("pose").at("rotation");
-  RigidMotion m;
-  m.rotation = Eigen::Quaterniond(q.at(0).get<double>(), q.at(1).get<double>(),
-                                  q.at(2).get<double>(), q.at(3).get<double>());
-  m.translation = vector_of(pair["pose"].at("translation"));
-  return m;
-}
-
-/// Points spread over the surface at random, each standing for the same area.
-Eigen::Matrix3Xd points_on(const TriangleMesh& mesh, int count) {
-  std::vector<double> upto;
-  double area = 0.0;
-  for (const auto t : mesh.triangles.colwise()) {
-    const Vector3d a = mesh.vertices.col(t(0));
-    const Vector3d b = mesh.vertices.col(t(1)) - a;
-    const Vector3d c = mesh.vertices.col(t(2)) - a;
-    upto.push_back(area += 0.5 * b.cross(c).norm());
-  }
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform;
-  Eigen::Matrix3Xd points(3, count);
-  for (int i = 0; i < count; ++i) {
-    const auto t =
-        std::lower_bound(upto.begin(), upto.end(), area * uniform(random)) - upto.begin();
-    const Eigen::Vector3i corners = mesh.triangles.col(std::min<Eigen::Index>(t, mesh.size() - 1));
-    double u = uniform(random);
-    double v = uniform(random);
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    points.col(i) = (1 - u - v) * mesh.vertices.col(corners(0)) +
-                    u * mesh.vertices.col(corners(1)) + v * mesh.vertices.col(corners(2));
-  }
-  return points;
+  const double at[3] = {s.from + u * (s.to - s.from), 0.0, 0.0};
+  const double turn[3] = {1.8 * u, 0.0, 2.4 * u};
+  return member(s, s.kind == SymmetryKind::kBall ? turn : at);
 }
 
 struct Part {
@@ -121,7 +45,7 @@ const Part& part(const std::string& stem) {
   const Eigen::AlignedBox3d box(file.mesh.vertices.rowwise().minCoeff(),
                                 file.mesh.vertices.rowwise().maxCoeff());
   MeshSolid solid(file.mesh);
-  Eigen::Matrix3Xd points = points_on(file.mesh, 3000);
+  Eigen::Matrix3Xd points = sample_surface(file.mesh, 3000).points;
   return parts.emplace(stem, Part{std::move(file), solid, points, box.diagonal().norm()})
       .first->second;
 }
@@ -145,21 +69,21 @@ Fit fit_of(const Part& fixed, const Part& moving, const RigidMotion& pose, doubl
 }
 
 /// The product of members S1 S2 ... Sn, each at its own place of its range.
-RigidMotion any_member(const json& symmetries, int sample) {
+RigidMotion any_member(const std::vector<Symmetry>& symmetries, int sample) {
   RigidMotion m;
   int n = 0;
-  for (const json& s : symmetries) {
+  for (const Symmetry& s : symmetries) {
     static constexpr double kPlaces[] = {0.0, 1.0, 0.37, 0.72};
-    m = compose(m, member(s, kPlaces[static_cast<std::size_t>((sample + n++) % 4)]));
+    m = compose(m, member_at(s, kPlaces[static_cast<std::size_t>((sample + n++) % 4)]));
   }
   return m;
 }
 
 TEST(SampleParts, EveryFileIsClosedAndTheStepFileIsTheSameSolid) {
   std::set<std::string> stems;
-  for (const json& pair : pairs()) {
-    stems.insert(pair.at("fixed").get<std::string>());
-    stems.insert(pair.at("moving").get<std::string>());
+  for (const TrueMate& pair : pairs()) {
+    stems.insert(pair.fixed);
+    stems.insert(pair.moving);
   }
   EXPECT_GE(stems.size(), 40U);
   ReadPartOptions quick;
@@ -182,19 +106,20 @@ TEST(SampleParts, EveryFileIsClosedAndTheStepFileIsTheSameSolid) {
 }
 
 TEST(SampleParts, FitWithoutPenetrationAtEveryRecordedPose) {
-  const json all = pairs();
+  const std::vector<TrueMate> all = pairs();
   std::set<std::string> families;
-  for (const json& pair : all) {
-    const std::string name = pair.at("name");
+  for (const TrueMate& pair : all) {
+    const std::string& name = pair.name;
     families.insert(name.substr(0, name.rfind('_')));
-    const Part& fixed = part(pair.at("fixed"));
-    const Part& moving = part(pair.at("moving"));
+    const Part& fixed = part(pair.fixed);
+    const Part& moving = part(pair.moving);
     // Both are tessellated to 0.06 mm or better, and clearance opens gaps of up to 0.25 mm.
-    const double touch = 0.15 + 0.1 * (pair.at("clearance").get<double>() / 0.02);
-    const int samples = pair.at("symmetries").empty() ? 1 : 5;
+    const double touch = 0.15 + 0.1 * (pair.clearance / 0.02);
+    const int samples = pair.symmetries.empty() ? 1 : 5;
     for (int i = 0; i < samples; ++i) {
-      const RigidMotion pose =
-          i == 0 ? pose_of(pair) : compose(any_member(pair["symmetries"], i), pose_of(pair));
+      const RigidMotion pose = i == 0
+                                   ? pair.moving_in_fixed
+                                   : compose(any_member(pair.symmetries, i), pair.moving_in_fixed);
       const Fit fit = fit_of(fixed, moving, pose, touch);
       EXPECT_LT(fit.depth, name.starts_with("thread") ? 0.12 : 0.04) << name << " member " << i;
       // A gear touches along one line per tooth pair; everything else over a good part of it.
@@ -203,7 +128,7 @@ TEST(SampleParts, FitWithoutPenetrationAtEveryRecordedPose) {
     // The check would notice: a shift by 2% of the diameter, along whichever axis is worst.
     double worst = 0.0;
     for (int axis = 0; axis < 6; ++axis) {
-      RigidMotion shifted = pose_of(pair);
+      RigidMotion shifted = pair.moving_in_fixed;
       shifted.translation(axis / 2) += (axis % 2 == 0 ? 0.02 : -0.02) * moving.diameter;
       worst = std::max(worst, fit_of(fixed, moving, shifted, touch).depth);
     }
@@ -211,6 +136,34 @@ TEST(SampleParts, FitWithoutPenetrationAtEveryRecordedPose) {
   }
   EXPECT_GE(all.size(), 30U);
   EXPECT_GE(families.size(), 16U);
+}
+
+// A thread turned the wrong way for its slide, or a gear spun the wrong way for its orbit, cuts
+// into its mate: the signs of pitch and ratio are those of the shapes.
+TEST(SampleParts, ScrewsAndGearsMeshOneWayRoundOnly) {
+  std::set<SymmetryKind> seen;
+  for (const TrueMate& pair : pairs())
+    for (const Symmetry& s : pair.symmetries) {
+      if (s.kind != SymmetryKind::kScrew && s.kind != SymmetryKind::kRoll) continue;
+      if (s.pitch == 0.0 && s.ratio == 0.0) continue;  // a hinge
+      if (!seen.insert(s.kind).second) continue;       // one of each is enough
+      Symmetry wrong = s;
+      wrong.pitch = -s.pitch;
+      wrong.ratio = -s.ratio;
+      double right_depth = 0.0, wrong_depth = 0.0;
+      for (const double angle : {0.3, 0.8, 1.3}) {
+        const auto depth = [&](const Symmetry& family) {
+          return fit_of(part(pair.fixed), part(pair.moving),
+                        compose(member(family, &angle), pair.moving_in_fixed), 0.1)
+              .depth;
+        };
+        right_depth = std::max(right_depth, depth(s));
+        wrong_depth = std::max(wrong_depth, depth(wrong));
+      }
+      EXPECT_LT(right_depth, 0.12) << pair.name;
+      EXPECT_GT(wrong_depth, 0.25) << pair.name;
+    }
+  EXPECT_EQ(seen.size(), 2U);
 }
 
 }  // namespace

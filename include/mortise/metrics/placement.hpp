@@ -23,7 +23,7 @@ struct PlacementError {
 /// Both distances are minimised over the recorded symmetries, each by itself. The mean square is
 /// exact (a quadratic over each triangle, summed by mid-edge points) and smooth in the symmetries'
 /// parameters: a grid of starts, then damped Newton steps. The largest distance is taken at a
-/// vertex; it starts from the mean square's minimum and descends from there by a pattern search.
+/// vertex; it descends by a pattern search from the mean square's minima, those of every fold.
 class Placement {
  public:
   /// @throws InputError if the mesh has no triangle or a symmetry is out of range

@@ -18,7 +18,9 @@ enum class DecomposeMethod {
   kOctree,        ///< the balls about the cells of an octree
 };
 
-/// Which of the expanded balls A2 are kept as A3.
+/// Which of the expanded balls A2 are kept as A3. Balls that the rest of the boundary needs to be
+/// within epsilon are added to any of them (Decomposition::added), small ones about nodes too where
+/// no ball of A2 reaches: kContainment is [SD, Alg. 1] where that is none.
 enum class Reduction {
   kCover,        ///< few of them that hold every node inside the solid
   kContainment,  ///< those whose inner ball is in no other kept ball [SD, Alg. 1, step 3]
@@ -45,6 +47,7 @@ struct DecomposeOptions {
 struct Decomposition {
   Knots knots;              ///< A3: n3 balls in the solid's frame by decreasing radius
   Eigen::Matrix4Xd inner;   ///< A1: 4 x n1, balls inside the solid that hold every node inside it
+  Eigen::Index added = 0;   ///< of the knots, those added for the boundary's sake
   double spacing = 0.0;     ///< edge of the cubic grid cells
   double epsilon = 0.0;     ///< half a cell's diagonal: bound on the Hausdorff distance
   Eigen::Index nodes = 0;   ///< nodes of the grid
@@ -58,7 +61,8 @@ struct Decomposition {
 /// The union U of the knots and the solid S satisfy U in S + B(epsilon) and S in U + B(epsilon)
 /// [SD, Prop. 3]: the sets are no further apart than half the diagonal of a grid cell. Derivation
 /// and what is changed against the paper in docs/math.md.
-/// @throws InputError if an option is out of range or no node lies inside the solid
+/// @throws InputError if an option is out of range, no node lies inside the solid or the grid has
+/// more than 2^28 nodes
 /// Time m distances and O(sum of the inner balls' volumes / spacing^3), memory about 16 bytes a
 /// node, m = nodes.
 [[nodiscard]] Decomposition decompose(const Solid& solid, const DecomposeOptions& options = {});

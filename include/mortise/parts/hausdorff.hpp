@@ -20,19 +20,23 @@ namespace mortise {
 [[nodiscard]] Eigen::Matrix3Xd surface_samples(const Solid& solid, double spacing, int threads = 0);
 
 struct HausdorffOptions {
-  double spacing = 0.0;  ///< between samples of the balls, half that in the solid; 0 = box / 200
+  double spacing = 0.0;  ///< between samples of the balls, twice that between nodes in the solid's
+                         ///< box; 0 = box / 200
   int threads = 0;       ///< 0 = all cores; never changes the result
 };
 
-/// Largest distances, each from samples of the first set to the second; a true one may be
-/// larger by `spacing` at most (2 spacing for surface_to_balls).
+/// Largest distances, each from samples of the first set to the second. A true one may be larger by
+/// `spacing` at most (2 spacing for surface_to_balls) where it is taken near a boundary, by half a
+/// diagonal of the nodes' grid, 0.87 `node_spacing`, elsewhere.
 struct HausdorffDistance {
   double balls_beyond_solid = 0.0;  ///< from the union of the balls to the solid
   double solid_beyond_balls = 0.0;  ///< from the solid to the union of the balls
   double balls_to_surface = 0.0;    ///< from the union's boundary, its voids' too, to the solid's
   double surface_to_balls = 0.0;    ///< from the solid's boundary to that of the union
-  double spacing = 0.0;             ///< that was used
-  Eigen::Index samples = 0;         ///< of both boundaries and of the solid's inside
+  double spacing = 0.0;             ///< of the boundaries' samples
+  double node_spacing = 0.0;        ///< of the nodes in the solid's box; at most 512 a side, so it
+                                    ///< may be more than 2 spacing
+  Eigen::Index samples = 0;         ///< of both boundaries and of the nodes in solid or balls
 
   /// Of the two as sets of points: what [SD, Prop. 1-3] bound by epsilon.
   [[nodiscard]] double of_solids() const noexcept;

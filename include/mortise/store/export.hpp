@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "mortise/molecules/molecule.hpp"
+#include "mortise/parts/read_part.hpp"
+#include "mortise/store/inputs.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise {
@@ -47,15 +49,26 @@ struct ExportOptions {
 [[nodiscard]] std::string export_mmcif(const Run& run, const Molecule& fixed,
                                        const Molecule& moving, const ExportOptions& options = {});
 
+/// A run's parts, read once for all its poses.
+struct ExportParts {
+  ReadPartResult fixed;  ///< empty unless ExportOptions::complex
+  ReadPartResult moving;
+  std::string moving_path;  ///< where it was found
+};
+
+/// @throws InputError for a run of molecules; as read_input_part
+[[nodiscard]] ExportParts read_export_parts(const Run& run, const LocateOptions& fixed,
+                                            const LocateOptions& moving,
+                                            const ExportOptions& options = {});
+
 /// The moving part at one pose, by index, in the fixed part's frame, as the bytes of an STL, PLY or
 /// STEP file. A STEP input written as STEP keeps its curved faces; otherwise, and with
-/// options.complex, the triangles are written. A mesh knows no unit: its STEP file says mm.
-/// @param fixed_path  read with options.complex only
-/// @throws InputError for a run of molecules, an index out of range or another format; as read_part
-/// and format_step
+/// options.complex, the triangles are written, in the unit of whichever part knows one; mm if none
+/// does.
+/// @throws InputError for a run of molecules, an index out of range, another format, or a complex
+/// of two units; as format_step
 [[nodiscard]] std::string export_part(const Run& run, ExportFormat format, std::size_t pose,
-                                      const std::string& fixed_path, const std::string& moving_path,
-                                      const ExportOptions& options = {});
+                                      const ExportParts& parts, const ExportOptions& options = {});
 
 /// The .out layout of ZDOCK 3.0.2, on a grid of 0.001 so that whole steps place every atom within
 /// 0.001 A.

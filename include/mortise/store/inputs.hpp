@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mortise/molecules/molecule.hpp"
+#include "mortise/parts/read_part.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise {
@@ -28,5 +29,11 @@ struct LocateOptions {
 [[nodiscard]] Molecule read_input_molecule(const BodyRecord& body, const Provenance& provenance,
                                            const std::string& name,
                                            const LocateOptions& options = {});
+
+/// Reads a body's part again: tessellated as the run's options say, open surfaces accepted.
+/// @throws as locate_input and read_part
+[[nodiscard]] ReadPartResult read_input_part(const BodyRecord& body, const Provenance& provenance,
+                                             const std::string& name,
+                                             const LocateOptions& options = {});
 
 }  // namespace mortise

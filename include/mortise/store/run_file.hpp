@@ -26,6 +26,7 @@ struct BodyRecord {
   std::string sha256;             ///< of the file, 64 hex digits
   Knots knots;                    ///< input frame; may be empty
   RigidMotion search_from_input;  ///< carries input coordinates to the frame the search used
+  std::string unit;  ///< of a part's lengths, as its file says: "mm"; empty if it does not
 };
 
 /// The rotations searched and which of them are done.
