@@ -9,20 +9,21 @@
 
 namespace mortise {
 
-BallTree::BallTree(const Eigen::Matrix4Xd& balls, double cover) {
+BallTree::BallTree(const Eigen::Matrix4Xd& balls, double margin) {
   std::vector<int> order(static_cast<std::size_t>(balls.cols()));
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(2 * order.size());
-  build(balls, cover, order, 0, static_cast<int>(order.size()));
+  extent_ = balls.topRows<3>().cwiseAbs().maxCoeff() + balls.row(3).maxCoeff();
+  build(balls, margin, order, 0, static_cast<int>(order.size()));
 }
 
-int BallTree::build(const Eigen::Matrix4Xd& balls, double cover, std::vector<int>& order, int first,
-                    int last) {
+int BallTree::build(const Eigen::Matrix4Xd& balls, double margin, std::vector<int>& order,
+                    int first, int last) {
   Node node;
   if (last - first == 1) {
     node.centre = balls.col(order[first]).head<3>();
-    node.inner = balls(3, order[first]);
-    node.radius = node.inner + cover;
+    node.radius = balls(3, order[first]);
+    node.inner = node.radius - margin;
   } else {
     Eigen::Vector3d low = balls.col(order[first]).head<3>(), high = low;
     for (int i = first; i < last; ++i) {
@@ -34,8 +35,8 @@ int BallTree::build(const Eigen::Matrix4Xd& balls, double cover, std::vector<int
     const int middle = (first + last) / 2;
     std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
                      [&](int a, int b) { return balls(axis, a) < balls(axis, b); });
-    node.left = build(balls, cover, order, first, middle);
-    node.right = build(balls, cover, order, middle, last);
+    node.left = build(balls, margin, order, first, middle);
+    node.right = build(balls, margin, order, middle, last);
     const Node &a = nodes_[node.left], &b = nodes_[node.right];
     const Eigen::Vector3d step = b.centre - a.centre;
     const double d = step.norm();
@@ -53,7 +54,7 @@ int BallTree::build(const Eigen::Matrix4Xd& balls, double cover, std::vector<int
 }
 
 BallTree::Verdict BallTree::compare(const BallTree& fixed, const BallTree& moving,
-                                    const RigidMotion& moving_in_fixed, int steps) {
+                                    const RigidMotion& moving_in_fixed, std::int64_t steps) {
   const Eigen::Matrix3d rotation = moving_in_fixed.rotation.toRotationMatrix();
   const Eigen::Vector3d& shift = moving_in_fixed.translation;
   struct Pair {
@@ -65,18 +66,20 @@ BallTree::Verdict BallTree::compare(const BallTree& fixed, const BallTree& movin
   stack[top++] = {static_cast<int>(fixed.nodes_.size()) - 1,
                   static_cast<int>(moving.nodes_.size()) - 1};
   bool between = false;
-  // Rounding must not part balls that touch: radii count a hair more, inner ones a hair less.
-  constexpr double kHair = 1e-12;
+  // Rounding must not part balls that touch: radii count a hair more, inner ones a hair less. The
+  // errors are of the coordinates, a few per level of the trees.
+  const double hair = 5e-14 * (fixed.extent_ + moving.extent_ + moving_in_fixed.translation.norm());
   while (top > 0) {
-    if (steps-- <= 0) return Verdict::kStopped;
+    if (steps-- <= 0) return between ? Verdict::kBetween : Verdict::kStopped;
     const Pair pair = stack[--top];
     const Node &a = fixed.nodes_[pair.fixed], &b = moving.nodes_[pair.moving];
     const double d_sq = (a.centre - (rotation * b.centre + shift)).squaredNorm();
-    const double reach = (a.radius + b.radius) * (1.0 + kHair);
+    const double reach = a.radius + b.radius + hair;
     if (d_sq >= reach * reach) continue;
     if (a.left < 0 && b.left < 0) {
-      const double inner = (a.inner + b.inner) * (1.0 - kHair);
-      if (d_sq < inner * inner) return Verdict::kMeet;
+      const double inner = a.inner + b.inner - hair;
+      if (a.inner > 0.0 && b.inner > 0.0 && inner > 0.0 && d_sq < inner * inner)
+        return Verdict::kMeet;
       between = true;
     } else if (b.left < 0 || (a.left >= 0 && a.radius > b.radius)) {
       stack[top++] = {a.left, pair.moving};

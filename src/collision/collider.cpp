@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <numeric>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,34 +15,30 @@
 #include "mortise/collision/radial_instrument.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
+#include "mortise/parts/uncontained_balls.hpp"
 
 namespace mortise {
 namespace {
 
-// The spectra's error, 1e-7 each, with room: relative to the largest overlap by Cauchy and Schwarz.
-constexpr double kSpectrumError = 1e-6;
+// The spectra's error, 1e-7 each, with room, and that of the window's table: relative to the
+// largest overlap by Cauchy and Schwarz.
+constexpr double kSpectrumError = 1e-6 + RadialInstrument::kTransformError;
 
-// Few balls whose union, grown by `slack`, holds all balls: those that no kept and grown one holds,
-// from the largest down. Sums of fewer balls count less of the body twice.
-CollisionBody thinned(const CollisionBody& body, double slack) {
+// Few balls whose union, grown by `slack`, holds all balls. Sums of fewer balls count less of the
+// body twice.
+BodyDensity thinned(const CollisionBody& body, double slack, double by) {
   const Eigen::Matrix4Xd& balls = body.balls.points;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(balls.cols())), kept;
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index i, Eigen::Index j) { return balls(3, i) > balls(3, j); });
-  for (const Eigen::Index i : order)
-    if (std::none_of(kept.begin(), kept.end(), [&](Eigen::Index j) {
-          return (balls.col(i) - balls.col(j)).head<3>().norm() + balls(3, i) <=
-                 balls(3, j) + slack;
-        }))
-      kept.push_back(i);
-  return {{balls(Eigen::all, kept), body.balls.weights(kept)}, body.cover + slack};
+  const std::vector<Eigen::Index> kept = uncontained_balls(balls, slack);
+  const Knots knots{balls(Eigen::all, kept),
+                    Eigen::VectorXcd::Ones(static_cast<Eigen::Index>(kept.size()))};
+  return density_of_knots(knots, RadialKernel{}, slack + by);
 }
 
-BodyDensity grown(const CollisionBody& body, double by) {
+BodyDensity as_it_is(const CollisionBody& body) {
+  if (body.density.size() > 0) return body.density;
   Knots knots = body.balls;
   knots.weights.setOnes();
-  return density_of_knots(knots, RadialKernel{}, body.cover + by);
+  return density_of_knots(knots);
 }
 
 // Int a(x) b(T x) dx is at most the product of the roots of Int a^2 and Int b^2, at every pose.
@@ -49,40 +46,67 @@ double largest_overlap(const BodyDensity& a, const BodyDensity& b) {
   return std::sqrt(ball_energy(a) * ball_energy(b));
 }
 
-// Largest |w| of the ball of lattice points that a series of so many modes holds: a little less
-// than what the volume says, so that no mode within it is missing.
+// The least |w| that a series of so many modes, w and -w together, may lack: the first lattice
+// shell that it does not hold as a whole.
 double bandwidth_of(int modes, double box) {
-  return 0.96 * std::cbrt(modes * 0.75 / 3.14159265358979) / box;
+  const int held = 2 * ((modes + 1) / 2) - 1;
+  const int reach = static_cast<int>(std::cbrt(held)) + 2;  // that cube holds more
+  std::vector<int> shells(static_cast<std::size_t>(reach * reach) + 1, 0);
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach; y <= reach; ++y)
+      for (int z = -reach; z <= reach; ++z)
+        if (const int n = x * x + y * y + z * z; n <= reach * reach) ++shells[n];
+  std::size_t first = 0;
+  for (int sum = 0; first < shells.size() && sum + shells[first] <= held; ++first)
+    sum += shells[first];
+  return std::sqrt(static_cast<double>(first)) / box;
 }
+
+// The certified cut-off of the grown bodies' smoothed gap function.
+struct Cut {
+  std::unique_ptr<GapFunction> gap;
+  double band = std::numeric_limits<double>::infinity();
+  double growth = 0.0, threshold = 0.0, sum_error = 0.0;  // threshold of the exact sum
+};
 
 }  // namespace
 
 struct Collider::State {
+  CollisionBody fixed_body, moving_body;
   BallTree fixed, moving;
   ColliderOptions options;
-  double tree_band = 0.0, sum_band = std::numeric_limits<double>::infinity();
-  double growth = 0.0, threshold = 0.0, sum_error = 0.0;  // threshold of the exact sum
-  std::unique_ptr<GapFunction> gap;
+  std::unique_ptr<GapFunction> values;  // of the bodies, if asked for
+  mutable Cut known_cut;
+  mutable std::once_flag cut_known;
 
-  State(const CollisionBody& fixed_body, const CollisionBody& moving_body,
-        const ColliderOptions& asked)
-      : fixed(fixed_body.balls.points, fixed_body.cover),
-        moving(moving_body.balls.points, moving_body.cover),
-        options(asked),
-        tree_band(fixed_body.cover + moving_body.cover) {}
-  void choose_growth(const CollisionBody& fixed_body, const CollisionBody& moving_body);
+  State(const CollisionBody& f, const CollisionBody& m, const ColliderOptions& asked)
+      : fixed_body(f),
+        moving_body(m),
+        fixed(f.balls.points, f.margin),
+        moving(m.balls.points, m.margin),
+        options(asked) {}
+  [[nodiscard]] double tree_band() const { return fixed_body.margin + moving_body.margin; }
+  [[nodiscard]] std::int64_t steps() const {
+    constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
+    return tree_band() > 0.0 ? options.tree_steps : kEndless;
+  }
+  // Seconds of work that few need: the trees settle most poses.
+  [[nodiscard]] const Cut& cut() const {
+    std::call_once(cut_known, [&] { known_cut = least_band(); });
+    return known_cut;
+  }
+  [[nodiscard]] Cut least_band() const;
 };
 
 // The growth x0 with the least band 2 x0 + x1, by trial: small ones drown in the sum's own error,
 // large ones are a band by themselves.
-void Collider::State::choose_growth(const CollisionBody& fixed_body,
-                                    const CollisionBody& moving_body) {
-  const double reach =
-      bounding_ball(grown(fixed_body, 0.0)).radius + bounding_ball(grown(moving_body, 0.0)).radius;
+Cut Collider::State::least_band() const {
+  Cut best;
+  const double reach = bounding_ball(thinned(fixed_body, 0.0, 0.0)).radius +
+                       bounding_ball(thinned(moving_body, 0.0, 0.0)).radius;
   for (const double share : {0.04, 0.06, 0.09, 0.13, 0.19, 0.28}) {
     const double x0 = share * reach, slack = 0.7 * x0;
-    const BodyDensity a = grown(thinned(fixed_body, slack), x0),
-                      b = grown(thinned(moving_body, slack), x0);
+    const BodyDensity a = thinned(fixed_body, slack, x0), b = thinned(moving_body, slack, x0);
     // Twice the grown reach keeps the obstacle's images apart; then room for the kernel's stop
     // radius.
     const double box = 2.0 * (bounding_ball(a).radius + bounding_ball(b).radius) + 0.2 * reach;
@@ -100,21 +124,21 @@ void Collider::State::choose_growth(const CollisionBody& fixed_body,
     while (x1 < 4.0 * reach && most * kernel.outside(x1) + error >= inside) x1 += reach / 200.0;
     const bool certain = x1 < 4.0 * reach;
     const double band =
-        certain ? 2.0 * (x0 + slack) + x1 + tree_band : std::numeric_limits<double>::infinity();
-    if (gap == nullptr || band < sum_band) {
-      gap = std::move(trial);
-      sum_band = band, growth = x0, threshold = inside;
-      sum_error = gap->sum_error_bound();
+        certain ? 2.0 * (x0 + slack) + x1 + tree_band() : std::numeric_limits<double>::infinity();
+    if (best.gap == nullptr || band < best.band) {
+      const double sum_error = trial->sum_error_bound();
+      best = {std::move(trial), band, x0, inside, sum_error};
     }
   }
+  return best;
 }
 
 Collider::Collider(const CollisionBody& fixed, const CollisionBody& moving,
                    const ColliderOptions& options) {
   for (const CollisionBody* body : {&fixed, &moving}) {
     check_knots(body->balls, "Collider");
-    if (!(body->cover >= 0.0) || !std::isfinite(body->cover))
-      throw InputError("Collider: cover must be >= 0, got " + std::to_string(body->cover));
+    if (!(body->margin >= 0.0) || !std::isfinite(body->margin))
+      throw InputError("Collider: margin must be >= 0, got " + std::to_string(body->margin));
   }
   if (options.modes < 200)  // below, lattice points in a ball are too unlike its volume
     throw InputError("Collider: modes must be >= 200, got " + std::to_string(options.modes));
@@ -122,39 +146,41 @@ Collider::Collider(const CollisionBody& fixed, const CollisionBody& moving,
     throw InputError("Collider: tree_steps must be >= 0, got " +
                      std::to_string(options.tree_steps));
   state_ = std::make_unique<State>(fixed, moving, options);
-  state_->choose_growth(fixed, moving);
+  if (options.with_gap)
+    state_->values = std::make_unique<GapFunction>(as_it_is(fixed), as_it_is(moving),
+                                                   GapOptions{.max_modes = options.modes,
+                                                              .oversampling = options.oversampling,
+                                                              .threads = options.threads});
 }
 
 Collider::~Collider() = default;
 Collider::Collider(Collider&&) noexcept = default;
 Collider& Collider::operator=(Collider&&) noexcept = default;
 
-Collision Collider::operator()(const RigidMotion& pose) const {
+Collision Collider::operator()(const RigidMotion& moving_in_fixed) const {
+  check_motion(moving_in_fixed, "Collider");
   const State& s = *state_;
+  const RigidMotion pose{moving_in_fixed.rotation.normalized(), moving_in_fixed.translation};
+  using Verdict = BallTree::Verdict;
   Collision answer;
-  const BallTree::Verdict verdict =
-      s.options.tree_steps > 0 ? BallTree::compare(s.fixed, s.moving, pose, s.options.tree_steps)
-                               : BallTree::Verdict::kStopped;
-  const bool known = verdict == BallTree::Verdict::kApart || verdict == BallTree::Verdict::kMeet;
-  if (s.options.with_gap || !known) answer.gap = (*s.gap)(pose);
-  if (known) {
-    answer.contact = verdict == BallTree::Verdict::kMeet ? Contact::kYes : Contact::kNo;
-    answer.by = DecidedBy::kTree;
+  if (s.values != nullptr) answer.gap = (*s.values)(pose);
+  const Verdict verdict = s.options.tree_steps > 0
+                              ? BallTree::compare(s.fixed, s.moving, pose, s.steps())
+                              : Verdict::kStopped;
+  if (verdict == Verdict::kApart || verdict == Verdict::kMeet) {
+    answer.contact = verdict == Verdict::kMeet ? Contact::kYes : Contact::kNo;
     return answer;
   }
+  // Balls that meet, but no inner ones: how close that is, is all there is to say. The sum could
+  // say no only where they do not meet.
+  if (verdict != Verdict::kStopped) return answer;
   answer.by = DecidedBy::kSum;
-  double value = answer.gap.value;
-  if (std::abs(value - s.threshold) <= s.sum_error) {
-    // Too close for single precision. Where the trees have said how close, that is all one needs.
-    if (verdict == BallTree::Verdict::kBetween) {
-      answer.by = DecidedBy::kTree;
-      return answer;
-    }
-    value = s.gap->exact(pose).value;
-  }
-  answer.contact = value < s.threshold ? Contact::kNo : Contact::kBand;
-  if (answer.contact == Contact::kBand && verdict == BallTree::Verdict::kBetween)
-    answer.by = DecidedBy::kTree;
+  const Cut& cut = s.cut();
+  const double value = (*cut.gap)(pose).value;
+  if (value < cut.threshold - cut.sum_error ||
+      (value <= cut.threshold + cut.sum_error &&  // too close for single precision
+       cut.gap->exact(pose).value < cut.threshold))
+    answer.contact = Contact::kNo;
   return answer;
 }
 
@@ -170,10 +196,10 @@ void Collider::evaluate(std::span<const RigidMotion> poses, std::span<Collision>
   });
 }
 
-double Collider::tree_band() const noexcept { return state_->tree_band; }
-double Collider::sum_band() const noexcept { return state_->sum_band; }
-double Collider::growth() const noexcept { return state_->growth; }
-double Collider::threshold() const noexcept { return state_->threshold; }
-const GapFunction& Collider::gap_function() const noexcept { return *state_->gap; }
+double Collider::tree_band() const noexcept { return state_->tree_band(); }
+double Collider::sum_band() const { return state_->cut().band; }
+double Collider::growth() const { return state_->cut().growth; }
+double Collider::threshold() const { return state_->cut().threshold; }
+const GapFunction& Collider::gap_function() const { return *state_->cut().gap; }
 
 }  // namespace mortise

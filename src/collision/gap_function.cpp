@@ -117,6 +117,7 @@ GapFunction::GapFunction(GapFunction&&) noexcept = default;
 GapFunction& GapFunction::operator=(GapFunction&&) noexcept = default;
 
 GapValue GapFunction::operator()(const RigidMotion& pose, int modes) const {
+  check_motion(pose, "GapFunction");  // other quaternions would lead out of the samples
   const State& s = *state_;
   const Eigen::Vector3d t = s.shift(pose);
   if (!(t.norm() < s.fixed_ball.radius + s.moving_ball.radius)) return {};
@@ -165,6 +166,7 @@ void GapFunction::evaluate(std::span<const RigidMotion> poses, std::span<GapValu
 }
 
 GapValue GapFunction::exact(const RigidMotion& pose, int modes) const {
+  check_motion(pose, "GapFunction::exact");
   const State& s = *state_;
   const Eigen::Vector3d t = s.shift(pose);
   if (!(t.norm() < s.fixed_ball.radius + s.moving_ball.radius)) return {};

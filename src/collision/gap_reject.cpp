@@ -2,6 +2,9 @@
 // Early misses: partial sums with a bound on the rest; derivation in docs/math.md.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numeric>
+#include <vector>
 
 #include "collision/gap_state.hpp"
 #include "mortise/core/errors.hpp"
@@ -10,14 +13,27 @@
 namespace mortise {
 
 double ball_energy(const BodyDensity& density) {
+  // In the order of their first coordinate, so that each ball looks at few others.
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(density.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) {
+    return density.points(0, i) < density.points(0, j);
+  });
+  const double largest = density.radii.maxCoeff();
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < density.size(); ++i)
-    for (Eigen::Index j = 0; j < density.size(); ++j) {
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    const Eigen::Index i = order[a];
+    const double weight = density.weights[i].real(), radius = density.radii[i];
+    sum += weight * weight * ball_overlap_volume(radius, radius, 0.0);
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      const Eigen::Index j = order[b];
+      if (density.points(0, j) - density.points(0, i) >= radius + largest) break;
       const double d = (density.points.col(i) - density.points.col(j)).norm();
-      if (d < density.radii[i] + density.radii[j])
-        sum += density.weights[i].real() * density.weights[j].real() *
-               ball_overlap_volume(density.radii[i], density.radii[j], d);
+      if (d < radius + density.radii[j])
+        sum += 2.0 * weight * density.weights[j].real() *
+               ball_overlap_volume(radius, density.radii[j], d);
     }
+  }
   return sum;
 }
 
@@ -38,14 +54,19 @@ void GapFunction::State::measure_tails() {
   for (Eigen::Index i = 0; i < moving.size(); ++i)
     moving_mass += std::abs(moving.weights[i]) *
                    (moving.radii.size() > 0 ? moving.kernel.volume(moving.radii[i]) : 1.0);
-  if (coefficients.cols() == 1 && moving.radii.size() > 0 && std::isinf(moving.kernel.alpha()))
-    moving_energy = box * box * box * ball_energy(moving);
+}
+
+double GapFunction::State::moving_energy() const {
+  if (coefficients.cols() != 1 || moving.radii.size() == 0 || !std::isinf(moving.kernel.alpha()))
+    throw InputError("GapFunction::reject: only for real densities of balls");
+  std::call_once(energy_known, [&] { known_energy = box * box * box * ball_energy(moving); });
+  return known_energy;
 }
 
 GapFunction::Rejection GapFunction::reject(const RigidMotion& pose, double threshold) const {
+  check_motion(pose, "GapFunction::reject");
   const State& s = *state_;
-  if (s.moving_energy < 0.0)
-    throw InputError("GapFunction::reject: only for real densities of balls");
+  const double moving_energy = s.moving_energy();
   const Eigen::Vector3d t = s.shift(pose);
   if (!(t.norm() < s.fixed_ball.radius + s.moving_ball.radius)) return {threshold > 0.0, 0, 0.0};
   GapJob job = s.job(pose.rotation.toRotationMatrix(), t, 0);
@@ -66,7 +87,7 @@ GapFunction::Rejection GapFunction::reject(const RigidMotion& pose, double thres
     const double summed = static_cast<double>(2 * kModeBlock) * static_cast<double>(b + 1);
     // |G| of each mode is below its interpolant by at most `error`.
     const double sure = std::max(0.0, std::sqrt(std::max(0.0, energy)) - std::sqrt(summed) * error);
-    const double left = std::sqrt(std::max(0.0, s.moving_energy - sure * sure));
+    const double left = std::sqrt(std::max(0.0, moving_energy - sure * sure));
     const double bound = value + s.head[b + 1] * error + s.tail[b + 1] * left;
     const bool last = b + 1 == blocks;
     if (bound < threshold || last)

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <mutex>
 #include <numbers>
 #include <vector>
 
@@ -28,10 +29,11 @@ struct GapFunction::State {
   std::vector<AlignedVector<float>> real, imag;
   const GapTable* table = nullptr;  // the sums for this processor
   // For early misses: sqrt(sum |K F|^2) over the modes from each block on (both of every pair), the
-  // sum of |K F| over those before it, L^3 Int rho_moving^2 (negative: unknown) and Int
-  // |rho_moving|.
+  // sum of |K F| over those before it, Int |rho_moving| and, once asked for, L^3 Int rho_moving^2.
   std::vector<double> tail, head;
-  double moving_energy = -1.0, moving_mass = 0.0;
+  double moving_mass = 0.0;
+  mutable double known_energy = 0.0;
+  mutable std::once_flag energy_known;
 
   explicit State(double oversampling) : kernel(oversampling) {}
 
@@ -40,6 +42,8 @@ struct GapFunction::State {
   void pack();
   void measure_error(int threads);
   void measure_tails();
+  /// L^3 Int rho_moving^2. @throws InputError unless the density is a real one of balls
+  [[nodiscard]] double moving_energy() const;
   [[nodiscard]] GapJob job(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& t,
                            std::size_t part) const;
   [[nodiscard]] Eigen::Vector3d shift(const RigidMotion& pose) const {
@@ -53,7 +57,7 @@ struct GapFunction::State {
                                 const Eigen::Vector3d& spin) const;
 };
 
-/// Int rho^2 of real balls, pair by pair.
+/// Int rho^2 of real balls, by the pairs that meet.
 [[nodiscard]] double ball_energy(const BodyDensity& density);
 
 }  // namespace mortise

@@ -24,22 +24,27 @@ enum class DecidedBy { kTree, kSum };
 struct Collision {
   Contact contact = Contact::kBand;
   DecidedBy by = DecidedBy::kTree;
-  GapValue gap;  ///< of the grown bodies, smoothed; zero unless asked for
+  GapValue gap;  ///< of the bodies' densities, by ColliderOptions::modes; zero unless asked for
 };
 
 struct ColliderOptions {
-  int modes = 4096;           ///< of the truncated sum
+  int modes = 4096;           ///< of the truncated sums; >= 200
   double oversampling = 3.0;  ///< see GapOptions
-  int tree_steps = 20000;  ///< pairs of balls looked at before the sum has to decide; 0 = sum alone
-  bool with_gap = false;   ///< fill in Collision::gap for every pose
-  int threads = 0;         ///< for the making
+  /// Pairs of balls looked at before only the sum is left; 0 = the sum alone. Where both margins
+  /// are 0 there is no limit, so that answers are exact.
+  int tree_steps = 20000;
+  bool with_gap = false;  ///< fill in Collision::gap for every pose
+  int threads = 0;        ///< for the making
 };
 
-/// Two ways in one: a pair of sphere trees finds certain misses (grown balls apart) and certain
-/// hits (a ball within one body meets one within the other: [FC, Thm. 2] with that ball for U);
-/// where neither shows within the steps allowed, the gap function of the bodies grown by x0,
-/// smoothed by a nonnegative kernel, is compared with what it is at least in every collision [FC,
-/// Lemma 2, Thm. 6]. Derivation in docs/math.md. Immutable; serves any number of threads.
+/// The trees certify, the sum narrows. A pair of sphere trees finds certain misses (the balls that
+/// hold the bodies are apart) and certain hits (a ball within one body meets one within the other:
+/// [FC, Thm. 2] with that ball for U): nearly every answer is theirs. Where neither shows within
+/// the steps allowed, the gap function of the balls grown by x0, smoothed by a nonnegative kernel,
+/// is compared with what it is at least in every collision [FC, Lemma 2, Thm. 6], which tells
+/// bodies far apart from others. The sum takes seconds to make and is made when first
+/// needed, by a pose or by a question below. Derivation in docs/math.md. Immutable; serves any
+/// number of threads.
 class Collider {
  public:
   /// @throws InputError on bad knots or options
@@ -49,18 +54,19 @@ class Collider {
   Collider(Collider&&) noexcept;
   Collider& operator=(Collider&&) noexcept;
 
+  /// @throws InputError unless the motion is finite with a unit quaternion
   [[nodiscard]] Collision operator()(const RigidMotion& moving_in_fixed) const;
-  /// @throws InputError if the counts differ
+  /// @throws InputError if the counts differ or on such a motion
   void evaluate(std::span<const RigidMotion> poses, std::span<Collision> answers,
                 int threads = 0) const;
 
-  /// What an answer kBand means: by the trees, the bodies as described by their balls are closer
-  /// than the sum of the covers; by the sum, closer than this (or they overlap).
+  /// What an answer kBand means: the bodies overlap or are closer than this, if it is by the trees
+  /// tree_band(), the sum of the margins, if by the sum sum_band(), which may be infinite.
   [[nodiscard]] double tree_band() const noexcept;
-  [[nodiscard]] double sum_band() const noexcept;
-  [[nodiscard]] double growth() const noexcept;     ///< x0
-  [[nodiscard]] double threshold() const noexcept;  ///< V below it: certainly apart
-  [[nodiscard]] const GapFunction& gap_function() const noexcept;
+  [[nodiscard]] double sum_band() const;
+  [[nodiscard]] double growth() const;                    ///< x0
+  [[nodiscard]] double threshold() const;                 ///< V below it: certainly apart
+  [[nodiscard]] const GapFunction& gap_function() const;  ///< of the grown balls
 
  private:
   struct State;

@@ -52,11 +52,12 @@ struct GapProduct {
 ///   V = L^-3 Re sum_w K^(w) F(w) conj(G(R^T w)) exp(2 pi i w.t), w = k / L, over the modes kept.
 ///
 /// Immutable once made; one object serves any number of threads. Where the bodies' bounding balls
-/// do not meet value and gradient are 0.
+/// do not meet value and gradient are 0. Every call with a motion throws InputError unless it is
+/// finite with a unit quaternion.
 class GapFunction {
  public:
   /// @throws InputError on bad densities or options, or if one body is real and the other not
-  /// Time: one NFFT per body, plus a check of the interpolation.
+  /// Time: one NFFT per body, plus a check of the interpolation, at most 2e7 terms.
   GapFunction(const BodyDensity& fixed, const BodyDensity& moving, const GapOptions& options = {});
   ~GapFunction();
   GapFunction(GapFunction&&) noexcept;
@@ -112,7 +113,8 @@ class GapFunction {
   /// The rest is at most L^-3 times the root of sum |K F|^2 over the rest times the root of L^3 Int
   /// rho_moving^2 - sum |G(R^T w)|^2 over the modes summed, both over the whole space (twice the
   /// half of Eq. 30); the second is Parseval's and holds at every rotation. Interpolation errors
-  /// are bounded and added. For real densities of balls only. @throws InputError otherwise
+  /// are bounded and added. For real densities of balls only. @throws InputError otherwise. The
+  /// first call works out Int rho_moving^2.
   [[nodiscard]] Rejection reject(const RigidMotion& moving_in_fixed, double threshold) const;
 
  private:

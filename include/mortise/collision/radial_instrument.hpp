@@ -13,8 +13,9 @@ class RadialInstrument {
   explicit RadialInstrument(double bandwidth);
 
   [[nodiscard]] double bandwidth() const noexcept { return bandwidth_; }
-  /// K^(k); 1 at 0, 0 from the bandwidth on.
+  /// K^(k) within kTransformError; 1 at 0, 0 from the bandwidth on.
   [[nodiscard]] double transform(double k) const;
+  static constexpr double kTransformError = 5e-7;
   /// Int of K over |x| >= r, from above.
   [[nodiscard]] double outside(double r) const;
   /// Int of K(x) times the overlap of two balls of radius r whose centres are x apart.
