@@ -55,6 +55,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   run.kind = "mate";
   run.complete = false;
   run.checkpoint = sample_checkpoint(17);
+  run.moving.unit = "mm";  // the fixed one's file knows none
   write_run(scratch / "run.h5", run);
   const mortise::Run back = read_run(scratch / "run.h5");
   EXPECT_EQ(back.kind, "mate");
@@ -77,6 +78,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
     EXPECT_EQ(a->path, b->path);
     EXPECT_EQ(a->spec, b->spec);
     EXPECT_EQ(a->sha256, b->sha256);
+    EXPECT_EQ(a->unit, b->unit);
     expect_same_knots(a->knots, b->knots);
     EXPECT_TRUE(same_motion(a->search_from_input, b->search_from_input));
   }
