@@ -55,7 +55,6 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   run.kind = "mate";
   run.complete = false;
   run.checkpoint = sample_checkpoint(17);
-  run.moving.unit = "mm";  // the fixed one's file knows none
   write_run(scratch / "run.h5", run);
   const mortise::Run back = read_run(scratch / "run.h5");
   EXPECT_EQ(back.kind, "mate");
