@@ -249,8 +249,7 @@ TEST(Mating, IsTheSameForPartsOfAnyScaleAndPlace) {
   struct Case {
     double scale, diameters;
   };
-  for (const Case& c : {Case{10.0, 0.0}, Case{1e-3, 0.0}, Case{1e12, 0.0}, Case{1e-12, 0.0},
-                        Case{1.0, 1e5}, Case{1e-3, 1e5}}) {
+  for (const Case& c : {Case{10.0, 0.0}, Case{1e-3, 0.0}, Case{1e12, 0.0}, Case{1.0, 1e5}}) {
     SCOPED_TRACE(::testing::Message() << c.scale << " and " << c.diameters);
     const Eigen::Vector3d shift =
         c.diameters * c.scale * plain.smaller_diameter() * Eigen::Vector3d(1.0, -0.7, 0.6);

@@ -77,6 +77,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
     EXPECT_EQ(a->path, b->path);
     EXPECT_EQ(a->spec, b->spec);
     EXPECT_EQ(a->sha256, b->sha256);
+    EXPECT_EQ(a->unit, b->unit);
     expect_same_knots(a->knots, b->knots);
     EXPECT_TRUE(same_motion(a->search_from_input, b->search_from_input));
   }

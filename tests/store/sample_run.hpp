@@ -69,12 +69,14 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
                "a.pdb:A",
                std::string(64, 'a'),
                sample_knots(40, random),
-               {random_rotation(random), Eigen::Vector3d(1, 2, 3)}};
+               {random_rotation(random), Eigen::Vector3d(1, 2, 3)},
+               ""};
   run.moving = {"b.pdb",
                 "b.pdb",
                 std::string(64, 'b'),
                 sample_knots(30, random),
-                {random_rotation(random), Eigen::Vector3d(-4, 5, 6)}};
+                {random_rotation(random), Eigen::Vector3d(-4, 5, 6)},
+                "mm"};
   run.rotations.covering_radius = 0.22;
   run.rotations.quaternions.resize(4, 50);
   run.rotations.done.assign(50, 1);
