@@ -13,6 +13,8 @@ export function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+export const fitting = (text, most) => (text.length > most ? `${text.slice(0, most - 1)}\u2026` : text);
+
 export const byId = (id) => document.getElementById(id);
 
 /** A colour of the theme in force, as a CSS text. */

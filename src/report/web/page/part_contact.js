@@ -57,15 +57,23 @@ function facesOf(tree) {
   }
   // Slivers, such as simplifying leaves, belong to the largest face beside them.
   const total = tree.areas.reduce((a, b) => a + b, 0);
-  const size = new Float64Array(count);
-  for (let t = 0; t < count; ++t) size[find(t)] += tree.areas[t];
-  const beside = new Map();
-  for (const list of sides.values())
-    for (const [a, b] of list.length === 2 ? [list, [list[1], list[0]]] : []) {
-      const [r, other] = [find(a), find(b)];
-      if (r !== other && size[r] < SLIVER * total && size[other] > (size[beside.get(r)] ?? size[r])) beside.set(r, other);
+  for (let changed = true; changed;) {  // sizes rise along every step, so this ends
+    changed = false;
+    const size = new Float64Array(count);
+    for (let t = 0; t < count; ++t) size[find(t)] += tree.areas[t];
+    const beside = new Map();
+    for (const list of sides.values())
+      for (const a of list)
+        for (const b of list) {
+          const [r, other] = [find(a), find(b)];
+          const least = beside.has(r) ? size[beside.get(r)] : size[r];
+          if (r !== other && size[r] < SLIVER * total && size[other] > least) beside.set(r, other);
+        }
+    for (const [r, other] of beside) {
+      root[r] = other;
+      changed = true;
     }
-  for (const [r, other] of beside) root[r] = other;
+  }
   const members = new Map();
   for (let t = 0; t < count; ++t) {
     const r = find(t);
