@@ -242,6 +242,7 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   search.cutoff = 0.75 / skin.spacing;
   search.per_rotation = options.per_rotation;
   search.separation = options.separation * unit;
+  search.summits = true;  // sliding fits have long slopes, which would take all places
   search.threads = options.threads;
   std::vector<Channel> channels{
       sampled_channel("skin", 1.0, impl_->fixed_knots, impl_->moving_knots, skin.spacing)};
