@@ -133,13 +133,16 @@ struct Mating::Impl {
   RotationSet rotations;
   std::unique_ptr<RotationSearch> search;
 
-  // Contact and penetration of a placement as shares of the smaller surface.
+  // Contact and penetration of a placement as shares of the smaller surface. Contact whose normals
+  // cancel holds a part; what pushes it one way, as a face laid on another does, can be left by
+  // moving away. It counts as far as the rest backs it: half their harmonic mean.
   [[nodiscard]] std::array<double, 2> channels(const RigidMotion& motion, double tolerance,
                                                double share) const {
     const ContactFit fit = pair->fit(motion, tolerance, share);
     const double area = pair->smaller_area();
-    return {(fit.spread[1] + fit.spread[2] + options.flat * fit.spread[0]) / area,
-            -options.overlap * fit.penetration / area};
+    const double held = std::max(0.0, fit.contact - fit.one_sided);
+    const double backed = fit.contact > 0.0 ? held * fit.one_sided / (held + fit.one_sided) : 0.0;
+    return {(held + options.flat * backed) / area, -options.overlap * fit.penetration / area};
   }
 
   [[nodiscard]] double score(const RigidMotion& motion, double tolerance, double share) const {

@@ -203,8 +203,9 @@ Eigen::Matrix4Xd aligned_rotations(const Directions& fixed, const Directions& mo
         if (std::abs(cosine) > 0.94) continue;
         for (const Direction& m2 : m) {
           if (f2.axis != m2.axis) continue;
-          if (std::abs(std::acos(m1.along.dot(m2.along)) - std::acos(cosine)) > kSameAngle)
-            continue;
+          // Rounding may carry the product of a direction with itself past 1.
+          const double moving_cosine = std::clamp(m1.along.dot(m2.along), -1.0, 1.0);
+          if (std::abs(std::acos(moving_cosine) - std::acos(cosine)) > kSameAngle) continue;
           matches.push_back({f1.place + f2.place + m1.place + m2.place,
                              laying(f1.along, f2.along, m1.along, m2.along)});
         }
