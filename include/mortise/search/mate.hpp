@@ -52,7 +52,7 @@ struct MateOptions {
   double tolerance = 0.005;  ///< distance up to which surfaces are in contact; > 0
   double flat = 1.0;     ///< what contact that pushes one way counts, as far as contact that holds
                          ///< backs it; 0 to 1
-  double overlap = 2.0;  ///< what an area of penetration one tolerance deep costs against an area
+  double overlap = 3.0;  ///< what an area of penetration one tolerance deep costs against an area
                          ///< of contact; >= 0
   int samples = 3000;    ///< points on the smaller surface; >= 100
   int polished = 100;    ///< placements polished to the end; >= 1
