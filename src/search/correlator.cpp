@@ -24,6 +24,7 @@ extern const SearchTable kSearchTable;
 namespace {
 
 constexpr float kLowest = -std::numeric_limits<float>::infinity();
+constexpr std::size_t kMostVisits = 50000;  // cells looked at for summits
 
 // The window's tail near the Nyquist frequency is what suffers from spreading on an unenlarged
 // grid; this shape favours the modes below 80% of it. Widths 4 to 6 and shapes for 60% to 100% rank
@@ -221,7 +222,22 @@ void Correlator::clear_ball(Workspace& w, const GridPeak& peak, double separatio
   }
 }
 
-std::vector<GridPeak> Correlator::take_peaks(Workspace& w, int count, double separation) const {
+bool Correlator::touches_cleared(const Workspace& w, const std::array<int, 3>& cell) const {
+  for (int a = -1; a <= 1; ++a)
+    for (int b = -1; b <= 1; ++b) {
+      const int i = (cell[0] + a + size_[0]) % size_[0];
+      const int j = (cell[1] + b + size_[1]) % size_[1];
+      const float* const near =
+          w.scores.data() + (static_cast<std::ptrdiff_t>(i) * size_[1] + j) * row_;
+      for (int c = -1; c <= 1; ++c)
+        if ((a != 0 || b != 0 || c != 0) && !(near[(cell[2] + c + size_[2]) % size_[2]] > kLowest))
+          return true;
+    }
+  return false;
+}
+
+std::vector<GridPeak> Correlator::take_peaks(Workspace& w, int count, double separation,
+                                             bool summits) const {
   const auto [nx, ny, nz] = size_;
   const auto first_largest = [](const float* values, int n) {
     return static_cast<int>(std::max_element(values, values + n) - values);
@@ -235,7 +251,8 @@ std::vector<GridPeak> Correlator::take_peaks(Workspace& w, int count, double sep
     }
     return distance_sq < separation * separation;
   };
-  while (static_cast<int>(peaks.size()) < count) {
+  std::size_t visits = 0;
+  while (static_cast<int>(peaks.size()) < count && (!summits || visits++ < kMostVisits)) {
     const int i = first_largest(w.plane_maxima.data(), nx);
     const int j = first_largest(w.maxima.data() + static_cast<std::ptrdiff_t>(i) * plane_row_, ny);
     const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(i) * ny + j;
@@ -243,9 +260,12 @@ std::vector<GridPeak> Correlator::take_peaks(Workspace& w, int count, double sep
     if (!(w.scores[row * row_ + k] > kLowest)) break;  // everything has been taken
     const GridPeak peak = peak_at(w, {i, j, k});
     // A cell outside the cleared ball may have its maximum inside; then only the cell is cleared.
-    const bool taken = std::any_of(peaks.begin(), peaks.end(),
+    // Of summits no more than the cell ever is: cells fall from the highest down, so one that
+    // touches a cleared one is on its slope.
+    const bool taken = (summits && touches_cleared(w, peak.cell)) ||
+                       std::any_of(peaks.begin(), peaks.end(),
                                    [&](const GridPeak& other) { return too_near(peak, other); });
-    clear_ball(w, peak, taken ? 0.0 : separation);
+    clear_ball(w, peak, taken || summits ? 0.0 : separation);
     if (!taken) peaks.push_back(peak);
   }
   // The sub-grid maximum of a lower cell may be the higher one.

@@ -77,8 +77,9 @@ class Correlator {
   /// Up to `count` translations at least `separation` apart (grid steps), best first: the best
   /// cell, then the best that is not too near, and so on, each moved to its sub-grid maximum.
   /// Overwrites scores.
-  [[nodiscard]] std::vector<GridPeak> take_peaks(Workspace& workspace, int count,
-                                                 double separation) const;
+  /// @param summits  only cells no lower than their 26 neighbours, of at most some 10^4 cells
+  [[nodiscard]] std::vector<GridPeak> take_peaks(Workspace& workspace, int count, double separation,
+                                                 bool summits = false) const;
 
   [[nodiscard]] const std::array<int, 3>& size() const noexcept { return size_; }
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
@@ -90,6 +91,8 @@ class Correlator {
 
  private:
   [[nodiscard]] GridPeak peak_at(const Workspace& workspace, const std::array<int, 3>& cell) const;
+  [[nodiscard]] bool touches_cleared(const Workspace& workspace,
+                                     const std::array<int, 3>& cell) const;
   /// Takes the peak's cell and those nearer than `separation` to it out of scores and maxima.
   void clear_ball(Workspace& workspace, const GridPeak& peak, double separation) const;
 

@@ -152,17 +152,30 @@ struct Mating::Impl {
   RotationSet rotations;
   std::unique_ptr<RotationSearch> search;
 
-  // Contact and penetration of a placement as shares of the smaller surface.
+  // Contact and penetration of a placement as shares of the smaller surface. Contact whose normals
+  // cancel holds a part; what pushes it one way, as a face laid on another does, can be left by
+  // moving away. It counts as far as the rest backs it: half their harmonic mean.
   [[nodiscard]] std::array<double, 2> channels(const RigidMotion& motion, double tolerance,
-                                               double share) const {
+                                               double share, double overlap) const {
     const ContactFit fit = pair->fit(motion, tolerance, share);
     const double area = pair->smaller_area();
-    return {(fit.spread[1] + fit.spread[2] + options.flat * fit.spread[0]) / area,
-            -options.overlap * fit.penetration / area};
+    const double held = std::max(0.0, fit.contact - fit.one_sided);
+    const double backed = fit.contact > 0.0 ? held * fit.one_sided / (held + fit.one_sided) : 0.0;
+    return {(held + options.flat * backed) / area, -overlap * fit.penetration / area};
   }
 
-  [[nodiscard]] double score(const RigidMotion& motion, double tolerance, double share) const {
-    const auto [contact, penetration] = channels(motion, tolerance, share);
+  // Of a placement that is not polished yet: the grid's step alone makes it penetrate, so that
+  // costs less.
+  [[nodiscard]] double rough_score(const RigidMotion& motion, double tolerance,
+                                   double share) const {
+    const auto [contact, penetration] =
+        channels(motion, tolerance, share, std::min(1.0, options.overlap));
+    return contact + penetration;
+  }
+
+  [[nodiscard]] double score(const RigidMotion& motion) const {
+    const auto [contact, penetration] =
+        channels(motion, options.tolerance * unit, 1.0, options.overlap);
     return contact + penetration;
   }
 
@@ -176,10 +189,10 @@ struct Mating::Impl {
     RigidMotion motion = start;
     RigidMotion best = start;
     const double tolerance = options.tolerance * unit;
-    double best_score = score(start, tolerance, 1.0);
+    double best_score = score(start);
     for (const Stage& stage : kStages) {
       motion = pair->descend(motion, stage.sigma * tolerance, stage.penalty, 1.0, 8);
-      const double here = score(motion, tolerance, 1.0);
+      const double here = score(motion);
       if (here > best_score) {
         best = motion;
         best_score = here;
@@ -188,26 +201,26 @@ struct Mating::Impl {
     return best;
   }
 
-  // Applies `change` to each placement, judges it at a tolerance, clusters and keeps the best.
-  template <class Change>
+  // Applies `change` to each placement, judges it, clusters and keeps the best.
+  template <class Change, class Judge>
   [[nodiscard]] std::vector<Placed> sieve(std::vector<Placed> all, const Change& change,
-                                          double tolerance, double share, double radius,
-                                          std::size_t keep) const {
+                                          const Judge& judge, std::size_t keep) const {
     std::vector<double> scores(all.size());
     constexpr std::size_t kPiece = 16;
     parallel_for((all.size() + kPiece - 1) / kPiece, options.threads, [&](std::size_t piece, int) {
       const std::size_t end = std::min(all.size(), (piece + 1) * kPiece);
       for (std::size_t i = piece * kPiece; i < end; ++i) {
         all[i].motion = change(all[i].motion);
-        scores[i] = score(all[i].motion, tolerance, share);
+        scores[i] = judge(all[i].motion);
       }
     });
     const std::vector<std::size_t> order = ranking(scores);
     std::vector<RigidMotion> motions;
     motions.reserve(order.size());
     for (const std::size_t i : order) motions.push_back(all[i].motion);
-    const Clusters clusters = cluster_poses(motions, pair->moving().points.cast<double>(),
-                                            {.radius = radius * unit, .max_clusters = keep});
+    const Clusters clusters =
+        cluster_poses(motions, pair->moving().points.cast<double>(),
+                      {.radius = options.cluster_radius * unit, .max_clusters = keep});
     std::vector<Placed> kept;
     for (const std::size_t f : clusters.founders) kept.push_back(all[order[f]]);
     return kept;
@@ -265,6 +278,7 @@ Mating::Mating(const MatePart& fixed, const MatePart& moving, const MateOptions&
   search.cutoff = 0.75 / search.spacing;
   search.per_rotation = options.per_rotation;
   search.separation = options.separation * length;
+  search.summits = true;  // sliding fits have long slopes, which would take all places
   search.threads = options.threads;
   // In units of the grid step the scores fit single precision, whatever the parts' unit.
   const double weight = std::pow(search.spacing, -3);
@@ -315,7 +329,7 @@ Pose Mating::judge(const RigidMotion& motion) const {
   pose.moving_in_fixed = motion;
   const auto channels =
       impl_->channels(local_motion(impl_->fixed_frame, impl_->moving_frame, motion),
-                      impl_->options.tolerance * impl_->unit, 1.0);
+                      impl_->options.tolerance * impl_->unit, 1.0, impl_->options.overlap);
   pose.channels = {channels[0], channels[1]};
   pose.score = channels[0] + channels[1];
   return pose;
@@ -339,8 +353,12 @@ PoseList Mating::rank() const {
   const auto keep = static_cast<std::size_t>(run.options.polished);
   const auto as_it_is = [](const RigidMotion& m) { return m; };
   // Coarse to fine, few points to many, many placements to few.
-  placed = run.sieve(std::move(placed), as_it_is, 4.0 * tolerance, 0.15, run.options.cluster_radius,
-                     20 * keep);
+  placed = run.sieve(
+      std::move(placed), as_it_is,
+      [&](const RigidMotion& m) { return run.rough_score(m, 4.0 * tolerance, 0.15); }, 20 * keep);
+  const auto rough = [&](const RigidMotion& m) {
+    return run.rough_score(m, 2.0 * tolerance, 0.25);
+  };
   placed = run.sieve(
       std::move(placed),
       [&](const RigidMotion& m) {
@@ -348,14 +366,13 @@ PoseList Mating::rank() const {
         const RigidMotion wide = run.pair->descend(
             run.pair->descend(m, 6.0 * tolerance, 1.0, 0.1, 5), 3.0 * tolerance, 1.0, 0.15, 5);
         const RigidMotion narrow = run.pair->descend(m, 2.0 * tolerance, 1.0, 0.15, 6);
-        return run.score(wide, 2.0 * tolerance, 0.25) >= run.score(narrow, 2.0 * tolerance, 0.25)
-                   ? wide
-                   : narrow;
+        return rough(wide) >= rough(narrow) ? wide : narrow;
       },
-      2.0 * tolerance, 0.25, run.options.cluster_radius, keep);
+      rough, keep);
   placed = run.sieve(
-      std::move(placed), [&](const RigidMotion& m) { return run.polish(m); }, tolerance, 1.0,
-      run.options.cluster_radius, static_cast<std::size_t>(run.options.poses));
+      std::move(placed), [&](const RigidMotion& m) { return run.polish(m); },
+      [&](const RigidMotion& m) { return run.score(m); },
+      static_cast<std::size_t>(run.options.poses));
   PoseList best{{"contact", "penetration"}, {}};
   for (const Placed& p : placed) {
     best.poses.push_back(judge(input_motion(run.fixed_frame, run.moving_frame, p.motion)));

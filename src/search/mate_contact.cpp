@@ -3,7 +3,6 @@
 #include "search/mate_contact.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -108,11 +107,11 @@ ContactEnergy ContactPair::energy(const RigidMotion& motion, double sigma, doubl
 
 ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance, double share) const {
   ContactFit result;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d push = Eigen::Vector3d::Zero();
   const auto inverse = static_cast<float>(1.0 / tolerance);
   constexpr float kDeepest = 8.0F;  // tolerances: deeper counts no more
   for_each(motion, share,
-           [&](float, const Eigen::Vector3f&, const Eigen::Vector3f& n, float d,
+           [&](float side, const Eigen::Vector3f&, const Eigen::Vector3f& n, float d,
                const Eigen::Vector3f& g, double area) {
              const float u = d * inverse;
              if (u > 4.0F) return;
@@ -121,11 +120,10 @@ ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance, double 
              if (facing <= 0.0F || u < -4.0F) return;
              const double weight =
                  0.5 * area * std::exp(-0.5 * static_cast<double>(u) * u) * facing;
-             spread += weight * (n * n.transpose()).cast<double>();
+             push += (weight * side) * n.cast<double>();
              result.contact += weight;
            });
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
-  result.spread = solver.eigenvalues().reverse();
+  result.one_sided = push.norm();
   return result;
 }
 

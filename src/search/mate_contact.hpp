@@ -35,11 +35,9 @@ struct ContactEnergy {
 
 /// How well two surfaces lie on each other within a tolerance.
 struct ContactFit {
-  double contact = 0.0;  ///< area in contact, mean of both sides
-  Eigen::Vector3d spread =
-      Eigen::Vector3d::Zero();  ///< contact area by the principal directions of its normals,
-                                ///< largest first; their sum is `contact`
-  double penetration = 0.0;     ///< area in penetration, each piece times its depth in tolerances
+  double contact = 0.0;    ///< area in contact, mean of both sides
+  double one_sided = 0.0;  ///< of it, what pushes the moving body one way: |sum of normals by area|
+  double penetration = 0.0;  ///< area in penetration, each piece times its depth in tolerances
 };
 
 /// Judges placements of one moving body against one fixed body. Immutable, thread safe.

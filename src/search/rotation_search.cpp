@@ -126,8 +126,8 @@ struct RotationSearch::Impl {
   void search_one(Eigen::Index index, int worker) {
     Correlator::Workspace& w = workspace(worker);
     correlator->correlate(components.points, weights, rotation(index), w);
-    const std::vector<GridPeak> peaks =
-        correlator->take_peaks(w, options.per_rotation, options.separation / options.spacing);
+    const std::vector<GridPeak> peaks = correlator->take_peaks(
+        w, options.per_rotation, options.separation / options.spacing, options.summits);
     Candidate* out = found.data() + index * options.per_rotation;
     for (const GridPeak& peak : peaks) {
       std::array<double, 3> cell;

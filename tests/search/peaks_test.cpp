@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mortise/affinity/double_skin.hpp"
 #include "mortise/search/rotation_search.hpp"
@@ -64,6 +65,52 @@ TEST_F(Peaks, MoreAreNotThereThanTheBoxHolds) {
   search.run();
   EXPECT_LT(search.candidates().size(), 1000U);
   EXPECT_GT(search.candidates().size(), 10U);
+}
+
+TEST_F(Peaks, SummitsAreTheLocalMaximaOfTheGrid) {
+  constexpr int kCount = 25;
+  RotationSearch search(channels, rotations.leftCols(6),
+                        {.per_rotation = kCount, .separation = 0.0, .summits = true});
+  search.run();
+  const std::vector<Candidate> found = search.candidates();
+  ASSERT_EQ(found.size(), 6U * kCount);
+  const auto [nx, ny, nz] = search.grid_size();
+  for (int r = 0; r < 6; ++r) {
+    const std::vector<float> grid = search.score_grid(r);
+    const auto at = [&, nx = nx, ny = ny, nz = nz](int i, int j, int k) {
+      return grid[(static_cast<std::size_t>((i + nx) % nx) * ny + (j + ny) % ny) * nz +
+                  (k + nz) % nz];
+    };
+    std::vector<std::pair<float, Eigen::Vector3d>> maxima;
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        for (int k = 0; k < nz; ++k) {
+          float around = -std::numeric_limits<float>::infinity();
+          for (int n = 0; n < 27; ++n)
+            if (n != 13)
+              around = std::max(around, at(i + n / 9 - 1, j + n / 3 % 3 - 1, k + n % 3 - 1));
+          if (at(i, j, k) > around)
+            maxima.emplace_back(at(i, j, k), search.translation_of(i, j, k));
+        }
+    std::sort(maxima.begin(), maxima.end(),
+              [](const auto& a, const auto& b) { return a.first > b.first; });
+    ASSERT_GE(maxima.size(), static_cast<std::size_t>(kCount));
+    for (int n = 0; n < kCount; ++n) {
+      // Moved within their cells, and sorted anew by the score there.
+      const Eigen::Vector3d& cell = maxima[n].second;
+      const auto here =
+          std::count_if(found.begin() + std::ptrdiff_t{r} * kCount,
+                        found.begin() + (std::ptrdiff_t{r} + 1) * kCount, [&](const Candidate& c) {
+                          Eigen::Vector3d off = translation(c) - cell;
+                          for (int d = 0; d < 3; ++d) {
+                            const double side = search.grid_size()[d] * search.spacing();
+                            off[d] -= side * std::round(off[d] / side);
+                          }
+                          return off.cwiseAbs().maxCoeff() <= 0.501 * search.spacing();
+                        });
+      EXPECT_EQ(here, 1) << r << ' ' << n;
+    }
+  }
 }
 
 TEST_F(Peaks, BestIsTheGridsMaximumOrAboveIt) {

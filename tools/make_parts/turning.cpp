@@ -204,7 +204,13 @@ Pair hinge(double clearance) {
   moving = cut(moving, cylinder({0, -1, 0}, kAlong, 2, 52));
   for (const double y : {12.0, 44.0}) moving = cut(moving, cylinder({-17, y, -5}, kUp, 2, 10));
   p.moving = moving;
-  p.symmetries = {{.kind = "screw", .direction = kAlong, .from = -2.2, .to = 2.2}};
+  // To either stop: the inner edges of a leaf, 4.5 from the axis and 1.5 off its middle plane, meet
+  // the other leaf at pi - 2 asin(1.5 / 4.5). The screws' holes do not keep the leaf from lying the
+  // other way round, end for end.
+  const double stop = pi - 2 * std::asin(1.5 / 4.5);
+  p.symmetries = {
+      {.kind = "screw", .direction = kAlong, .from = -stop, .to = stop},
+      {.kind = "fold", .point = {0, 25, 0}, .direction = Vector3d::UnitX(), .order = 2}};
   return p;
 }
 

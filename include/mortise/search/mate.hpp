@@ -50,9 +50,9 @@ struct MateOptions {
                              ///< the double skin's 1; >= 0, 0 = none. Needs solids of meshes
   double detail = 0.01;      ///< grid step of the parts' distances, for judging contact; > 0
   double tolerance = 0.005;  ///< distance up to which surfaces are in contact; > 0
-  double flat = 0.1;  ///< what contact along a single direction counts against contact all round;
-                      ///< 0 to 1
-  double overlap = 1.0;  ///< what an area of penetration one tolerance deep costs against an area
+  double flat = 1.0;     ///< what contact that pushes one way counts, as far as contact that holds
+                         ///< backs it; 0 to 1
+  double overlap = 3.0;  ///< what an area of penetration one tolerance deep costs against an area
                          ///< of contact; >= 0
   int samples = 3000;    ///< points on the smaller surface; >= 100
   int polished = 100;    ///< placements polished to the end; >= 1
@@ -87,7 +87,9 @@ class Mating {
 
   /// Judges, polishes and ranks what the search has found so far: best first, at most
   /// options.poses. Channels "contact" and "penetration" are areas relative to the smaller surface;
-  /// the score is their sum.
+  /// the score is their sum. Of the contact's area C, F = |sum of its normals by area| pushes one
+  /// way and H = C - F holds: the channel is H + flat H F / (H + F). A face laid on another has
+  /// H = 0.
   [[nodiscard]] PoseList rank() const;
 
   /// The score and channels of one placement, as rank() gives them.

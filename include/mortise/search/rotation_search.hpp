@@ -23,8 +23,10 @@ struct SearchOptions {
              ///< lie beyond the grid's Nyquist frequency, which then cuts the window short
   int per_rotation = 4;     ///< best translations kept at each rotation; >= 1
   double separation = 5.0;  ///< least distance between translations kept at one rotation; >= 0
-  int spread_width = 4;     ///< grid cells per axis that a knot is spread over, 2 to 8
-  int threads = 0;          ///< 0 = all cores; never changes the result
+  bool summits =
+      false;  ///< keep local maxima of the score alone, none on the slope of a better one
+  int spread_width = 4;  ///< grid cells per axis that a knot is spread over, 2 to 8
+  int threads = 0;       ///< 0 = all cores; never changes the result
 };
 
 /// One of the best translations at one rotation, search frame: a local maximum of the score, or the
