@@ -137,8 +137,8 @@ TEST_F(Program, ExportRefusesWhatMakesNoSense) {
   expect_user_error("export run.h5 --format pdb --pose 13", "the run holds 12 poses");
   expect_user_error("export run.h5 --format csv -o - --json", "choose one");
   expect_user_error("export run.h5 --format csv -o no/such/dir.csv", "there is no directory");
-  expect_user_error("export run.h5 --format pdb -o ligand.pdb", "found an input of this run");
-  expect_user_error("export run.h5 --format csv -o run.h5", "found an input of this run");
+  expect_user_error("export run.h5 --format pdb -o ligand.pdb", "found an input");
+  expect_user_error("export run.h5 --format csv -o run.h5", "found an input");
   expect_user_error("export ligand.pdb --format csv", "expected an HDF5 file");
   expect_user_error("export none.h5 --format csv", "none.h5: no such file");
   run_.kind = "mate";
