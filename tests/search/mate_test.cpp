@@ -126,6 +126,11 @@ TEST(ContactFit, OfTheSeatIsItsContactArea) {
   const ContactFit seated = pair.fit({}, 0.05, 1.0);
   EXPECT_NEAR(seated.contact, 66.0, 0.1 * 66.0);  // see contact_test.cpp; the edges blur
   EXPECT_NEAR(seated.one_sided, 36.0, 4.0);       // floor and underside; the walls cancel
+  RigidMotion raised;
+  raised.translation << 0, 0, 0.5;
+  const ContactFit walls = pair.fit(raised, 0.05, 1.0);
+  EXPECT_NEAR(walls.contact, 25.0, 2.5);  // along 2.5 of the walls
+  EXPECT_LT(walls.one_sided, 1.0);
   RigidMotion sunk;
   sunk.translation << 0, 0, -0.1;
   EXPECT_GT(pair.fit(sunk, 0.05, 1.0).penetration, 36.0);
