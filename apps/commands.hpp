@@ -42,6 +42,9 @@ void set_command_line(int argc, const char* const* argv);
 /// `word` as a shell needs it: in quotes where it holds more than letters, digits and ./:,#=_-
 [[nodiscard]] std::string shell_word(const std::string& word);
 
+/// Throws FileError if `output` is the file `input`; either may be empty or missing.
+void refuse_to_overwrite_input(const std::string& output, const std::string& input);
+
 /// Largest resident memory of this process so far, 10^6 bytes.
 [[nodiscard]] double peak_memory_mb();
 

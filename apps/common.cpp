@@ -8,9 +8,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "commands.hpp"
+#include "mortise/core/errors.hpp"
 
 namespace mortise::app {
 namespace {
@@ -50,6 +52,12 @@ std::string shell_word(const std::string& word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+void refuse_to_overwrite_input(const std::string& output, const std::string& input) {
+  std::error_code error;
+  if (!input.empty() && std::filesystem::equivalent(output, input, error) && !error)
+    throw FileError(output, "expected a file to write, found an input");
 }
 
 double peak_memory_mb() {

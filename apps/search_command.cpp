@@ -18,12 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void refuse_to_overwrite_input(const std::string& output, const std::string& input) {
-  std::error_code error;
-  if (!input.empty() && fs::equivalent(output, input, error) && !error)
-    throw FileError(output, "expected a file to write, found an input");
-}
-
 // A run file is an answer for good: it is replaced or gone on with only where the user says so.
 void check_output(const SearchCommand& command, const SearchOptionsCommon& options) {
   for (const std::string& text : {options.fixed, options.moving})
