@@ -160,7 +160,7 @@ TEST_F(PartPrograms, BadInputIsNamed) {
   expect_user_error(free + "--thickness -1", "--thickness");
   expect_user_error(free + "--thickness nan", "--thickness");
   expect_user_error("assemble cube.obj cube.obj --goal goal.csv -o goal.csv", "found an input");
-  const std::string small = "assemble cube.obj cube.obj --grid 16 --modes 200 ";
+  const std::string small = "assemble cube.obj cube.obj --grid 16 --modes 200 --quiet ";
   expect_user_error(small + "--goal goal.csv --seconds 1e15", "seconds times rate");
   std::ofstream(path("empty.csv")) << "qw,qx,qy,qz,tx,ty,tz\n";
   expect_user_error(small + "--path empty.csv", "holds no pose");
