@@ -6,11 +6,12 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <utility>
 
 #include "commands.hpp"
 #include "line_plot.hpp"
@@ -22,6 +23,8 @@
 #include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/read_part.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "output_guard.hpp"
 #include "pose_csv.hpp"
 
 namespace mortise::app {
@@ -44,6 +47,7 @@ struct AssembleFlags {
 // Quantiles of times in microseconds.
 struct Latency {
   double median = 0.0, percentile_99 = 0.0, percentile_999 = 0.0, largest = 0.0;
+  std::size_t steps = 0;
 };
 
 Latency latency(std::vector<double> times) {
@@ -53,7 +57,29 @@ Latency latency(std::vector<double> times) {
     return times[std::min(times.size() - 1,
                           static_cast<std::size_t>(share * static_cast<double>(times.size())))];
   };
-  return {at(0.5), at(0.99), at(0.999), times.back()};
+  return {at(0.5), at(0.99), at(0.999), times.back(), times.size()};
+}
+
+void check_flags(const AssembleFlags& options) {
+  const auto check = [](double value, double low, double high, const char* name) {
+    if (!(value >= low && value <= high))  // so that NaN fails too
+      throw InputError("assemble: --" + std::string(name) + " must be in [" + std::to_string(low) +
+                       ", " + std::to_string(high) + "], got " + std::to_string(value));
+  };
+  check(options.field.thickness, 0.0, 1e9, "thickness");
+  check(options.start_shift, 0.0, 100.0, "start-shift");
+  check(options.start_angle, 0.0, 180.0, "start-angle");
+  check(options.rate, 1e-3, 1e6, "rate");
+  for (const std::string& output : {options.output, options.plot, options.write_path}) {
+    if (output.empty()) continue;
+    check_output_file(output,
+                      {options.fixed, options.moving, options.path, options.goal, options.mates},
+                      true, "");
+  }
+}
+
+void stop_if_interrupted(const char* what_is_lost) {
+  if (interrupted()) throw Interrupted(what_is_lost);
 }
 
 struct Session {
@@ -69,10 +95,16 @@ Session make_session(const AssembleFlags& options) {
   ReadPartResult moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
   const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
+  if (!options.common.quiet)
+    for (const auto& [name, part] :
+         {std::pair(&options.fixed, &fixed), std::pair(&options.moving, &moving)})
+      for (const std::string& decision : part->decisions)
+        std::fprintf(stderr, "mortise: %s: %s\n", name->c_str(), decision.c_str());
   const double thickness = options.field.thickness > 0.0
                                ? options.field.thickness
                                : std::min(default_thickness(first), default_thickness(second));
   const auto density = [&](const MeshSolid& part) {
+    stop_if_interrupted("nothing was written");
     if (options.field_kind == "skeletal")
       return skeletal_field(part, {.grid = options.field.grid,
                                    .margin = thickness,
@@ -95,48 +127,58 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Sleeps until shortly before, then watches the clock: the system wakes sleepers late.
+// Sleeps until shortly before, then watches the clock: the system wakes sleepers late. Ctrl-C ends
+// it: the signal may be another thread's, so no sleep is long.
 void wait_until(double time) {
-  constexpr double kWatch = 2e-4;
-  const double sleep = time - kWatch;
-  if (sleep > now()) {
+  constexpr double kWatch = 2e-4, kLongest = 0.1;
+  for (double left = time - kWatch - now(); left > 0.0 && !interrupted();
+       left = time - kWatch - now()) {
+    const double sleep = now() + std::min(left, kLongest);
     const timespec until = {static_cast<time_t>(sleep),
                             static_cast<long>((sleep - std::floor(sleep)) * 1e9)};
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
   }
-  while (now() < time) {
+  while (now() < time && !interrupted()) {
   }
 }
 
 struct Loop {
   std::vector<Wrench> wrenches;
   std::vector<double> compute,
-      late;        // microseconds: of the wrench; of the step's end after its start
-  int misses = 0;  // steps that ended after the next was due
+      late;                  // microseconds: of the wrench; of the step's end after its start
+  std::vector<double> felt;  // `compute` where the parts were in reach of each other
+  int misses = 0;            // steps that ended after the next was due
 };
+
+// Out of reach nothing is summed and all is zero.
+bool in_reach(const Wrench& w) {
+  return w.energy != 0.0 || !w.force.isZero(0.0) || !w.torque.isZero(0.0);
+}
 
 Loop run_loop(const AssemblySession& session, const std::vector<RigidMotion>& path, double rate) {
   Loop loop;
   loop.wrenches.resize(path.size());
   loop.compute.resize(path.size());
   loop.late.resize(path.size());
+  loop.felt.reserve(path.size());
   const double period = 1.0 / rate, start = now() + 0.01;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double due = start + static_cast<double>(i) * period;
     wait_until(due);
+    stop_if_interrupted("the path was not followed to its end");
     const double begun = now();
     loop.wrenches[i] = session.wrench(path[i]);
     const double ended = now();
     loop.compute[i] = 1e6 * (ended - begun);
     loop.late[i] = 1e6 * (ended - due);
     if (ended > due + period) ++loop.misses;
-    if (interrupted()) throw Interrupted("the path was not followed to its end");
+    if (in_reach(loop.wrenches[i])) loop.felt.push_back(loop.compute[i]);
   }
   return loop;
 }
 
 void write_wrenches(const std::string& file_name, const Loop& loop, double rate) {
-  std::ofstream file(file_name);
+  std::ostringstream file;
   file << "time,energy,fx,fy,fz,tx,ty,tz,microseconds\n" << std::setprecision(9);
   for (std::size_t i = 0; i < loop.wrenches.size(); ++i) {
     const Wrench& w = loop.wrenches[i];
@@ -145,8 +187,7 @@ void write_wrenches(const std::string& file_name, const Loop& loop, double rate)
     for (int d = 0; d < 3; ++d) file << ',' << w.torque[d];
     file << ',' << loop.compute[i] << '\n';
   }
-  file.close();
-  if (!file) throw FileError(file_name, "cannot be written");
+  write_file_atomically(file_name, file.str());
 }
 
 void write_plot(const std::string& file_name, const Loop& loop, double rate) {
@@ -191,13 +232,15 @@ std::vector<RigidMotion> path_of(const AssembleFlags& options, const AssemblySes
 void follow_path(const AssembleFlags& options, const Session& made) {
   const std::vector<RigidMotion> path = path_of(options, made.session);
   if (!options.write_path.empty()) write_pose_csv(options.write_path, path);
+  if (path.empty()) throw FileError(options.path, "holds no pose");
   const Loop loop = run_loop(made.session, path, options.rate);
   if (!options.output.empty()) write_wrenches(options.output, loop, options.rate);
   if (!options.plot.empty()) write_plot(options.plot, loop, options.rate);
-  const Latency compute = latency(loop.compute), late = latency(loop.late);
+  const Latency compute = latency(loop.felt), late = latency(loop.late);
   if (options.common.json) {
     const auto quantiles = [](const Latency& l) {
-      return nlohmann::ordered_json{{"median", l.median},
+      return nlohmann::ordered_json{{"steps", l.steps},
+                                    {"median", l.median},
                                     {"percentile_99", l.percentile_99},
                                     {"percentile_99_9", l.percentile_999},
                                     {"largest", l.largest}};
@@ -226,6 +269,8 @@ void follow_path(const AssembleFlags& options, const Session& made) {
   std::printf("  due to end %6.1f %6.1f %6.1f %8.1f\n", late.median, late.percentile_99,
               late.percentile_999, late.largest);
   std::printf("misses       %d\n", loop.misses);
+  if (compute.steps < path.size())
+    std::printf("out of reach %zu steps, not counted under wrench\n", path.size() - compute.steps);
 }
 
 // Random starts around a goal, let go; home is within 2% of the radius and 2 degrees of where the
@@ -252,6 +297,7 @@ void let_go(const AssembleFlags& options, const Session& made) {
   int home = 0, unmoved = 0;
   for (int i = 0; i < options.free_starts; ++i) {
     const Eigen::Vector3d turn = options.start_angle * std::numbers::pi / 180.0 * in_ball();
+    stop_if_interrupted("no poses of rest were written");
     RigidMotion start = goal;
     start.rotation = canonical(
         Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * goal.rotation);
@@ -319,7 +365,8 @@ void add_assemble(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--seed", options->hand.seed, "Of the made-up path or of the starts")
       ->capture_default_str();
-  command->add_option("--write-path", options->write_path, "CSV to keep the path in");
+  CLI::Option* write_path =
+      command->add_option("--write-path", options->write_path, "CSV to keep the path in");
   command->add_option("--rate", options->rate, "Steps per second")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -327,7 +374,7 @@ void add_assemble(CLI::App& program) {
       "-o,--output", options->output,
       "CSV: time, energy, force, torque (about the moving part's origin), time spent; "
       "with --free: the poses of rest");
-  command->add_option("--plot", options->plot, "SVG of the same");
+  CLI::Option* plot = command->add_option("--plot", options->plot, "SVG of the same");
   command
       ->add_option("--modes", options->assembly.modes, "Fourier modes m': more make contact harder")
       ->capture_default_str()
@@ -357,6 +404,8 @@ void add_assemble(CLI::App& program) {
       ->add_option(
           "--free", options->free_starts,
           "Let the part go from so many random starts near the goal and count those that snap in")
+      ->excludes(plot)
+      ->excludes(write_path)
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
@@ -372,7 +421,10 @@ void add_assemble(CLI::App& program) {
       "  mortise assemble block.stl peg.stl --goal mate.csv --seconds 30 --json\n"
       "  mortise assemble block.stl peg.stl --goal mate.csv --free 50\n"
       "  mortise assemble block.stl peg.stl --mates mates.json --free 50\n");
-  command->callback([options] { run(*options); });
+  command->callback([options] {
+    check_flags(*options);
+    run(*options);
+  });
 }
 
 }  // namespace mortise::app

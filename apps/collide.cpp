@@ -2,10 +2,12 @@
 // mortise collide: gap value, certified answer and gradient at each pose of a table.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iomanip>
 #include <memory>
+#include <span>
+#include <sstream>
 
 #include "clock.hpp"
 #include "commands.hpp"
@@ -15,6 +17,8 @@
 #include "mortise/molecules/to_knots.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/read_part.hpp"
+#include "mortise/store/atomic_file.hpp"
+#include "output_guard.hpp"
 #include "pose_csv.hpp"
 
 namespace mortise::app {
@@ -23,7 +27,7 @@ namespace {
 struct CollideFlags {
   CommonOptions common;
   std::string fixed, moving, poses, output;
-  ColliderOptions collider;
+  ColliderOptions collider = {.tree_steps = 2000000};
   CollisionBodyOptions body;
 };
 
@@ -40,12 +44,16 @@ bool is_molecule(const std::string& text) {
   return false;
 }
 
-CollisionBody read_body(const std::string& text, const CollideFlags& options) {
+CollisionBody read_body(const std::string& text, CollideFlags options) {
   if (is_molecule(text)) {
     const ReadMoleculeResult read = read_molecule(parse_molecule_spec(text));
     return {to_knots(read.molecule, {.radius = 0.0, .propensity = 0.0}), 0.0};
   }
   const ReadPartResult read = read_part(text);
+  if (!options.common.quiet)
+    for (const std::string& decision : read.decisions)
+      std::fprintf(stderr, "mortise: %s: %s\n", text.c_str(), decision.c_str());
+  options.body.deviation = read.deviation;  // of a STEP file's triangles from its surface
   return collision_body(MeshSolid(read.mesh, {.threads = options.common.threads}), options.body);
 }
 
@@ -58,61 +66,103 @@ std::array<double, 7> numbers(const GapValue& gap) {
   return {gap.value, d[0], d[1], d[2], e[0], e[1], e[2]};
 }
 
+const char* name(DecidedBy by) { return by == DecidedBy::kTree ? "tree" : "sum"; }
+
 void write_csv(const std::string& path, const std::vector<Collision>& answers) {
-  std::ofstream file(path);
-  file << "pose,answer,by,gap,dx,dy,dz,ex,ey,ez\n" << std::setprecision(9);
+  std::ostringstream text;
+  text << "pose,answer,by,gap,dx,dy,dz,ex,ey,ez\n" << std::setprecision(9);
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    file << i + 1 << ',' << name(answers[i].contact) << ','
-         << (answers[i].by == DecidedBy::kTree ? "tree" : "sum");
-    for (const double v : numbers(answers[i].gap)) file << ',' << v;
-    file << '\n';
+    text << i + 1 << ',' << name(answers[i].contact) << ',' << name(answers[i].by);
+    for (const double v : numbers(answers[i].gap)) text << ',' << v;
+    text << '\n';
   }
-  file.close();
-  if (!file) throw FileError(path, "cannot be written");
+  write_file_atomically(path, text.str());
+}
+
+void check_files(const CollideFlags& options) {
+  if (is_molecule(options.fixed) != is_molecule(options.moving))
+    throw InputError("collide: expected two molecules or two parts, got \"" + options.fixed +
+                     "\" and \"" + options.moving + '"');
+  if (options.output.empty()) return;
+  std::vector<std::string> inputs = {options.poses};
+  for (const std::string& input : {options.fixed, options.moving})
+    inputs.push_back(is_molecule(input) ? parse_molecule_spec(input).path : input);
+  check_output_file(options.output, inputs, true, "");
+}
+
+// In pieces, so that progress shows and Ctrl-C is heard.
+std::vector<Collision> answers_of(const Collider& collider, const std::vector<RigidMotion>& poses,
+                                  const CommonOptions& common) {
+  constexpr std::size_t kPiece = 2048;
+  std::vector<Collision> answers(poses.size());
+  const auto progress = make_progress("collide", common);
+  for (std::size_t done = 0; done < poses.size();) {
+    const std::size_t count = std::min(kPiece, poses.size() - done);
+    collider.evaluate(std::span(poses).subspan(done, count),
+                      std::span(answers).subspan(done, count), common.threads);
+    done += count;
+    if (!progress(done, poses.size())) throw Interrupted("no answers were written");
+  }
+  return answers;
 }
 
 void run(CollideFlags options) {
   options.collider.threads = options.body.threads = options.common.threads;
   options.collider.with_gap = true;
+  check_files(options);
   const std::vector<RigidMotion> poses = read_pose_csv(options.poses);
   const CollisionBody fixed = read_body(options.fixed, options),
                       moving = read_body(options.moving, options);
+  if (interrupted()) throw Interrupted("no answers were written");
   const Collider collider(fixed, moving, options.collider);
-  std::vector<Collision> answers(poses.size());
   const Clock::time_point start = Clock::now();
-  collider.evaluate(poses, answers, options.common.threads);
+  const std::vector<Collision> answers = answers_of(collider, poses, options.common);
   const double seconds = seconds_since(start);
   if (!options.output.empty()) write_csv(options.output, answers);
-  const auto count = [&](Contact contact) {
-    return std::count_if(answers.begin(), answers.end(),
-                         [&](const Collision& c) { return c.contact == contact; });
+  const auto count = [&](const auto& is) {
+    return static_cast<long>(std::count_if(answers.begin(), answers.end(), is));
   };
+  const long yes = count([](const Collision& c) { return c.contact == Contact::kYes; });
+  const long no = count([](const Collision& c) { return c.contact == Contact::kNo; });
+  const long by_sum = count([](const Collision& c) { return c.by == DecidedBy::kSum; });
+  const long band = static_cast<long>(answers.size()) - yes - no;
   if (options.common.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const Collision& c : answers) {
       const Eigen::Vector3d &d = c.gap.translation_gradient, &e = c.gap.rotation_gradient;
       rows.push_back({{"answer", name(c.contact)},
-                      {"by", c.by == DecidedBy::kTree ? "tree" : "sum"},
+                      {"by", name(c.by)},
                       {"gap", c.gap.value},
                       {"translation_gradient", {d[0], d[1], d[2]}},
                       {"rotation_gradient", {e[0], e[1], e[2]}}});
     }
-    const nlohmann::ordered_json figures = {{"poses", rows},
-                                            {"band", collider.tree_band()},
-                                            {"growth", collider.growth()},
-                                            {"modes", collider.gap_function().modes()},
-                                            {"fixed_balls", fixed.balls.size()},
-                                            {"moving_balls", moving.balls.size()},
-                                            {"seconds", seconds}};
+    nlohmann::ordered_json figures = {{"poses", rows},
+                                      {"yes", yes},
+                                      {"no", no},
+                                      {"in_band", band},
+                                      {"by_sum", by_sum},
+                                      {"band", collider.tree_band()},
+                                      {"sum_band", nullptr},
+                                      {"modes", options.collider.modes},
+                                      {"fixed_balls", fixed.balls.size()},
+                                      {"moving_balls", moving.balls.size()},
+                                      {"seconds", seconds}};
+    if (by_sum > 0 && std::isfinite(collider.sum_band())) figures["sum_band"] = collider.sum_band();
     std::printf("%s\n", figures.dump().c_str());
     return;
   }
   if (options.common.quiet) return;
   std::printf("balls    %ld fixed, %ld moving\n", static_cast<long>(fixed.balls.size()),
               static_cast<long>(moving.balls.size()));
-  std::printf("band     %.4g: closer than this the answer may be \"band\"\n", collider.tree_band());
-  std::printf("answers  %ld yes, %ld no, %ld band\n", static_cast<long>(count(Contact::kYes)),
-              static_cast<long>(count(Contact::kNo)), static_cast<long>(count(Contact::kBand)));
+  if (collider.tree_band() > 0.0)
+    std::printf("band     %.4g: closer than this the answer may be \"band\"\n",
+                collider.tree_band());
+  else
+    std::printf("band     none: answers are exact\n");
+  std::printf("answers  %ld yes, %ld no, %ld band\n", yes, no, band);
+  if (by_sum > 0)
+    std::printf("by sum   %ld, where --tree-steps were used up: its band is %.4g\n", by_sum,
+                collider.sum_band());
   std::printf("time     %.3f s, %.0f poses per second\n", seconds,
               static_cast<double>(poses.size()) / std::max(seconds, 1e-9));
 }
@@ -134,22 +184,32 @@ void add_collide(CLI::App& program) {
       ->required();
   command->add_option(
       "-o,--output", options->output,
-      "CSV: pose, answer (yes, no or band), what decided, gap value, its gradient by "
-      "translation and by rotation about the moving body's origin");
+      "CSV: pose, answer (yes, no or band), what decided, gap value (the common volume by the "
+      "modes "
+      "kept; where atoms overlap they count each), its gradient by translation and by rotation "
+      "about the moving body's origin");
   command->add_option("--modes", options->collider.modes, "Fourier modes of the gap function")
       ->capture_default_str()
       ->check(CLI::Range(200, 10000000));
   command
       ->add_option("--grid", options->body.grid,
-                   "Parts: nodes along the longest side; the band is about 3.5 cells of both")
+                   "Parts: nodes along the longest side; the band is about 3.5 cells")
       ->capture_default_str()
       ->check(CLI::Range(2, 1024));
-  add_common_options(
-      *command, options->common,
-      "  mortise collide block.stl peg.stl --poses poses.csv -o answers.csv\n"
-      "  mortise export run.h5 --format csv -o poses.csv && \\\n"
-      "    mortise collide receptor.pdb ligand.pdb --poses poses.csv --json\n"
-      "\"no\" and \"yes\" are certain; \"band\" means closer than the band that is printed.\n");
+  command
+      ->add_option("--tree-steps", options->collider.tree_steps,
+                   "Parts: pairs of balls looked at per pose before only the sum of modes is left")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2000000000));
+  add_common_options(*command, options->common,
+                     "  mortise collide block.stl peg.stl --poses poses.csv -o answers.csv\n"
+                     "  mortise export run.h5 --format csv -o poses.csv && \\\n"
+                     "    mortise collide receptor.pdb ligand.pdb --poses poses.csv --json\n"
+                     "\"no\" and \"yes\" are certain, by trees of balls around and inside the "
+                     "bodies; \"band\" means\n"
+                     "closer than the band that is printed. A truncated sum narrows it where the "
+                     "trees were stopped.\n"
+                     "Of molecules the bodies are the atoms' balls, and answers are exact.\n");
   command->callback([options] { run(*options); });
 }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
-#include "mortise/core/errors.hpp"
+#include "mortise/store/atomic_file.hpp"
 
 namespace mortise::app {
 namespace {
@@ -47,7 +47,7 @@ std::string outline(const std::vector<double>& values, double low, double high, 
 void write_line_plot(const std::string& path, const std::string& x_title,
                      const std::vector<double>& x, const std::vector<PlotPanel>& panels) {
   const int bottom = kTop + static_cast<int>(panels.size()) * (kHeight + kGap);
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << kLeft + kWidth + 20
        << "\" height=\"" << bottom + 20 << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
        << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
@@ -80,8 +80,7 @@ void write_line_plot(const std::string& path, const std::string& x_title,
            << "</text>\n";
   file << "<text x=\"" << kLeft + kWidth / 2 << "\" y=\"" << bottom << "\" text-anchor=\"middle\">"
        << x_title << "</text>\n</svg>\n";
-  file.close();
-  if (!file) throw FileError(path, "cannot be written");
+  write_file_atomically(path, file.str());
 }
 
 }  // namespace mortise::app

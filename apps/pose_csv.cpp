@@ -8,8 +8,10 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <sstream>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/store/atomic_file.hpp"
 
 namespace mortise::app {
 namespace {
@@ -70,14 +72,13 @@ std::vector<RigidMotion> read_pose_csv(const std::string& path) {
 }
 
 void write_pose_csv(const std::string& path, const std::vector<RigidMotion>& poses) {
-  std::ofstream file(path);
-  file << "qw,qx,qy,qz,tx,ty,tz\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
+  std::ostringstream text;
+  text << "qw,qx,qy,qz,tx,ty,tz\n" << std::setprecision(std::numeric_limits<double>::max_digits10);
   for (const RigidMotion& pose : poses)
-    file << pose.rotation.w() << ',' << pose.rotation.x() << ',' << pose.rotation.y() << ','
+    text << pose.rotation.w() << ',' << pose.rotation.x() << ',' << pose.rotation.y() << ','
          << pose.rotation.z() << ',' << pose.translation[0] << ',' << pose.translation[1] << ','
          << pose.translation[2] << '\n';
-  file.close();
-  if (!file) throw FileError(path, "cannot be written");
+  write_file_atomically(path, text.str());
 }
 
 }  // namespace mortise::app

@@ -98,7 +98,8 @@ int main(int argc, char** argv) {
     }
   }
   std::printf(
-      "triangles  FCL q/s  trees q/s  with gap q/s   sum q/s   yes    no  band  wrong  balls  "
+      "triangles  FCL q/s  trees q/s  with gap q/s   sum q/s   yes    no  band  wrong  by sum  "
+      "balls  "
       "band/diameter\n");
   for (const int size : sizes) {
     const mortise::TriangleMesh fixed = mortise::shapes::noisy_sphere(1.0, size, 0.15, 1),
@@ -130,22 +131,23 @@ int main(int argc, char** argv) {
     gaps.gap_function().evaluate(poses, values, 0, 1);
     const double sum_seconds = cpu_seconds() - start;
 
-    int yes = 0, no = 0, band = 0, wrong = 0;
+    int yes = 0, no = 0, band = 0, wrong = 0, by_sum = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const mortise::Contact contact = answers[i].contact;
       yes += contact == mortise::Contact::kYes ? 1 : 0;
       no += contact == mortise::Contact::kNo ? 1 : 0;
       band += contact == mortise::Contact::kBand ? 1 : 0;
+      by_sum += answers[i].by == mortise::DecidedBy::kSum ? 1 : 0;
       wrong += (contact == mortise::Contact::kYes && truth[i] == 0) ||
                        (contact == mortise::Contact::kNo && truth[i] != 0)
                    ? 1
                    : 0;
     }
     const double n = static_cast<double>(poses.size());
-    std::printf("%9ld %8.0f %10.0f %13.0f %9.0f %5d %5d %5d %6d %6ld %14.4f\n",
+    std::printf("%9ld %8.0f %10.0f %13.0f %9.0f %5d %5d %5d %6d %7d %6ld %14.4f\n",
                 static_cast<long>(fixed.size()), n / fcl_seconds, n / tree_seconds, n / gap_seconds,
-                n / sum_seconds, yes, no, band, wrong, static_cast<long>(fixed_body.balls.size()),
-                trees.tree_band() / 2.0);
+                n / sum_seconds, yes, no, band, wrong, by_sum,
+                static_cast<long>(fixed_body.balls.size()), trees.tree_band() / 2.0);
     std::fflush(stdout);
   }
 }

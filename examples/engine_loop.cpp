@@ -45,7 +45,10 @@ int main() {
   add_box(block, {-2.0, -1.6, -2.0}, {2.0, 1.6, 2.0}, true, false);
   add_box(block, {-1.0, -0.8, 0.0}, {1.0, 0.8, 2.0}, true, true);
   add_rim(block);
-  add_box(peg, {-1.0, -0.8, -1.0}, {1.0, 0.8, 1.0}, false, false);
+  // The peg's file has its origin far off its middle, as files do.
+  constexpr double kOff[3] = {3.0, -2.0, 5.0};
+  add_box(peg, {kOff[0] - 1.0, kOff[1] - 0.8, kOff[2] - 1.0},
+          {kOff[0] + 1.0, kOff[1] + 0.8, kOff[2] + 1.0}, false, false);
 
   mortise_session_options options = {};
   options.grid = 64;
@@ -54,19 +57,21 @@ int main() {
 
   Body body;
   body.radius = guidance.radius();
+  body.centre = guidance.centre();
   body.stiffness = 20.0;
-  body.pose = {{std::cos(0.04), 0.0, 0.0, std::sin(0.04)}, {0.05, -0.04, 1.25}};
+  body.pose = {{std::cos(0.04), 0.0, 0.0, std::sin(0.04)}, {0.0, 0.0, 0.0}};
+  constexpr double kStart[3] = {0.05, -0.04, 1.25};
+  for (int d = 0; d < 3; ++d) body.pose.translation[d] = kStart[d] - body.arm()[d];
+  const auto place = [&](int d) { return body.pose.translation[d] + body.arm()[d]; };
   constexpr double kStep = 1e-3;  // 1 kHz
   for (int i = 0; i <= 4000; ++i) {
     const mortise_wrench wrench = guidance.wrench(body.pose);
     if (i % 400 == 0)
-      std::printf("%5.2f s  height %8.4f  energy %9.4f\n", i * kStep, body.pose.translation[2],
-                  wrench.energy);
+      std::printf("%5.2f s  height %8.4f  energy %9.4f\n", i * kStep, place(2), wrench.energy);
     body.step(wrench, kStep);
   }
-  const bool seated = std::abs(body.pose.translation[2] - 1.0) < 0.1 &&
-                      std::abs(body.pose.translation[0]) < 0.05 &&
-                      std::abs(body.pose.translation[1]) < 0.05;
+  const bool seated =
+      std::abs(place(2) - 1.0) < 0.1 && std::abs(place(0)) < 0.05 && std::abs(place(1)) < 0.05;
   std::printf(seated ? "seated\n" : "not seated\n");
   return seated ? 0 : 1;
 }

@@ -39,7 +39,9 @@ class Guidance {
     check(mortise_session_wrench(session_.get(), &pose, 0, &result));
     return result;
   }
+  /// Of a ball around the moving part, its own frame.
   [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] const std::array<double, 3>& centre() const { return centre_; }
 
  private:
   struct Free {
@@ -54,19 +56,35 @@ class Guidance {
   double radius_ = 0.0;
 };
 
-/// One rigid body of an engine, as simple as can be: a ball's inertia, linear damping,
-/// semi-implicit Euler. Force and torque act on it times `stiffness`.
+/// One rigid body of an engine, as simple as can be: a ball's mass and inertia about `centre`,
+/// linear damping, semi-implicit Euler. Force and torque act on it times `stiffness`.
 struct Body {
   mortise_pose pose = {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  std::array<double, 3> velocity = {}, spin = {};
+  std::array<double, 3> velocity = {}, spin = {};  ///< of the centre
+  std::array<double, 3> centre = {};               ///< of mass, the body's own frame
   double mass = 1.0, radius = 1.0, damping = 4.0, stiffness = 1.0;
+
+  /// From the body's origin to its centre, the world's axes.
+  [[nodiscard]] std::array<double, 3> arm() const {
+    const double* q = pose.rotation;
+    const std::array<double, 3> v = {q[1], q[2], q[3]};
+    const std::array<double, 3> once = cross(v, centre);  // c + 2 v x (v x c + w c)
+    std::array<double, 3> result = {};
+    for (int d = 0; d < 3; ++d) result[d] = once[d] + q[0] * centre[d];
+    result = cross(v, result);
+    for (int d = 0; d < 3; ++d) result[d] = centre[d] + 2.0 * result[d];
+    return result;
+  }
 
   void step(const mortise_wrench& wrench, double dt) {
     const double inertia = 0.4 * mass * radius * radius;
+    const std::array<double, 3> before = arm();
+    // The wrench's torque is about the origin, the body turns about its centre.
+    const std::array<double, 3> shift =
+        cross(before, {wrench.force[0], wrench.force[1], wrench.force[2]});
     for (int d = 0; d < 3; ++d) {
       velocity[d] += dt * (stiffness * wrench.force[d] / mass - damping * velocity[d]);
-      spin[d] += dt * (stiffness * wrench.torque[d] / inertia - damping * spin[d]);
-      pose.translation[d] += dt * velocity[d];
+      spin[d] += dt * (stiffness * (wrench.torque[d] - shift[d]) / inertia - damping * spin[d]);
     }
     // q' = (0, spin) q / 2.
     const double* q = pose.rotation;
@@ -80,6 +98,14 @@ struct Body {
       norm += pose.rotation[d] * pose.rotation[d];
     }
     for (double& x : pose.rotation) x /= std::sqrt(norm);
+    const std::array<double, 3> after = arm();
+    for (int d = 0; d < 3; ++d) pose.translation[d] += dt * velocity[d] + before[d] - after[d];
+  }
+
+ private:
+  static std::array<double, 3> cross(const std::array<double, 3>& a,
+                                     const std::array<double, 3>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 };
 

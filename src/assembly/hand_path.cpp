@@ -44,6 +44,10 @@ std::vector<RigidMotion> hand_path(const RigidMotion& goal, const Eigen::Vector3
   positive(options.seconds, "seconds");
   positive(options.rate, "rate");
   positive(radius, "radius");
+  constexpr double kMostPoses = 2e7;  // a gigabyte
+  if (options.seconds * options.rate > kMostPoses)
+    throw InputError("hand_path: seconds times rate must be <= 2e7, got " +
+                     std::to_string(options.seconds * options.rate));
   if (options.visits < 0)
     throw InputError("hand_path: visits must be >= 0, got " + std::to_string(options.visits));
   std::mt19937_64 random(options.seed);

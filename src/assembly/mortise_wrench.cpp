@@ -37,6 +37,16 @@ int guarded(const Body& body) {
   return 1;
 }
 
+// Relative to the first vertex, so that little is lost far from the origin.
+double signed_volume(const mortise::TriangleMesh& mesh) {
+  const Eigen::Matrix3Xd v = mesh.vertices.colwise() - mesh.vertices.col(mesh.triangles(0, 0));
+  double sum = 0.0;
+  for (Eigen::Index t = 0; t < mesh.size(); ++t)
+    sum += v.col(mesh.triangles(0, t))
+               .dot(v.col(mesh.triangles(1, t)).cross(v.col(mesh.triangles(2, t))));
+  return sum / 6.0;
+}
+
 mortise::MeshSolid solid(const mortise_mesh* mesh, const char* name, int threads) {
   if (mesh == nullptr || mesh->vertices == nullptr || mesh->triangles == nullptr ||
       mesh->vertex_count < 0 || mesh->triangle_count < 0)
@@ -46,7 +56,16 @@ mortise::MeshSolid solid(const mortise_mesh* mesh, const char* name, int threads
                                                      static_cast<Eigen::Index>(mesh->vertex_count));
   copy.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
       mesh->triangles, 3, static_cast<Eigen::Index>(mesh->triangle_count));
-  return mortise::MeshSolid(std::move(copy), {.threads = threads});
+  mortise::MeshSolid result(std::move(copy), {.threads = threads});
+  if (!result.closed())
+    throw mortise::InputError(std::string("mortise_session_create: the ") + name +
+                              " mesh is open; expected one without open edges");
+  const double volume = signed_volume(result.mesh());
+  if (!(volume > 0.0))
+    throw mortise::InputError(std::string("mortise_session_create: the ") + name +
+                              " mesh has the volume " + std::to_string(volume) +
+                              "; expected triangles that run counter-clockwise seen from outside");
+  return result;
 }
 
 }  // namespace
@@ -68,7 +87,7 @@ int mortise_session_create(const mortise_mesh* fixed, const mortise_mesh* moving
     if (asked.modes != 0) assembly.modes = asked.modes;
     const mortise::MeshSolid first = solid(fixed, "fixed", asked.threads),
                              second = solid(moving, "moving", asked.threads);
-    if (!(field.thickness > 0.0))
+    if (field.thickness == 0.0)  // anything else out of range is refused below
       field.thickness =
           std::min(mortise::default_thickness(first), mortise::default_thickness(second));
     *session = new mortise_session{
@@ -86,10 +105,7 @@ int mortise_session_wrench(const mortise_session* session, const mortise_pose* p
     motion.rotation = Eigen::Quaterniond(pose->rotation[0], pose->rotation[1], pose->rotation[2],
                                          pose->rotation[3]);
     motion.translation = Eigen::Map<const Eigen::Vector3d>(pose->translation);
-    if (!motion.translation.allFinite() ||
-        !(std::abs(motion.rotation.squaredNorm() - 1.0) < 1e-6))  // so that NaN fails too
-      throw mortise::InputError(
-          "mortise_session_wrench: expected a unit quaternion and a finite shift");
+    mortise::check_motion(motion, "mortise_session_wrench");
     const mortise::Wrench felt = session->session.wrench(motion, modes);
     wrench->energy = felt.energy;
     for (int d = 0; d < 3; ++d) {

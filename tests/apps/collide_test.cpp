@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise collide and mortise assemble on small parts and a molecule.
+#include <Eigen/Geometry>
 #include <fstream>
 
 #include "apps/program.hpp"
@@ -35,7 +36,10 @@ TEST_F(PartPrograms, CollideAnswersYesNoAndBand) {
   EXPECT_EQ(json["poses"][0]["answer"], "yes");
   EXPECT_EQ(json["poses"][1]["answer"], "no");
   EXPECT_EQ(json["poses"][2]["answer"], "band");  // 0.01 apart, the band is several cells
-  EXPECT_GT(json["poses"][0]["gap"].get<double>(), json["poses"][2]["gap"].get<double>());
+  EXPECT_EQ(json["by_sum"], 0);
+  // The common volume of the cubes as they are, by a thousand modes.
+  EXPECT_NEAR(json["poses"][0]["gap"].get<double>(), 0.5 * 0.8, 0.05);
+  EXPECT_NEAR(json["poses"][1]["gap"].get<double>(), 0.0, 0.02);
   // Farther along x they overlap less.
   EXPECT_LT(json["poses"][0]["translation_gradient"][0].get<double>(), 0.0);
   std::ifstream csv(path("out.csv"));
@@ -53,6 +57,55 @@ TEST_F(PartPrograms, CollideOfMoleculesIsExact) {
   EXPECT_EQ(json["poses"][0]["answer"], "yes");
   EXPECT_EQ(json["poses"][1]["answer"], "no");
   EXPECT_EQ(json["band"], 0.0);
+  EXPECT_EQ(json["in_band"], 0);
+}
+
+// Its balls stand about places outside: plates like it were refused once.
+TEST_F(PartPrograms, CollideTakesAThinTurnedPlate) {
+  std::ofstream plate(path("plate.obj"));
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  for (int corner = 0; corner < 8; ++corner)
+    plate << "v "
+          << (turn * Eigen::Vector3d((corner & 1) != 0 ? 50 : -50, (corner & 2) != 0 ? 40 : -40,
+                                     (corner & 4) != 0 ? 0.5 : -0.5))
+                 .transpose()
+          << '\n';
+  plate << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  plate.close();
+  const nlohmann::json json =
+      this->json("collide plate.obj cube.obj --poses poses.csv --modes 500");
+  EXPECT_NE(json["poses"][0]["answer"], "no");
+}
+
+TEST_F(PartPrograms, CollideChecksItsFilesFirst) {
+  const std::string poses = read_whole_file(path("poses.csv"));
+  expect_user_error("collide cube.obj cube.obj --poses poses.csv -o poses.csv", "found an input");
+  expect_user_error("collide cube.obj cube.obj --poses poses.csv -o cube.obj", "found an input");
+  EXPECT_EQ(read_whole_file(path("poses.csv")), poses);
+  // Before the poses are read, let alone answered.
+  expect_user_error("collide cube.obj cube.obj --poses none.csv -o none/a.csv", "none/a.csv");
+  expect_user_error("collide 1hpv_ligand.pdb cube.obj --poses poses.csv",
+                    "two molecules or two parts");
+}
+
+TEST_F(PartPrograms, CtrlCIsHeard) {
+  {
+    std::ofstream many(path("many.csv"));
+    many << "qw,qx,qy,qz,tx,ty,tz\n";
+    for (int i = 0; i < 300000; ++i) many << "1,0,0,0,1.01,0,0\n";
+    std::ofstream(path("slow.csv")) << "qw,qx,qy,qz,tx,ty,tz\n1,0,0,0,1,0,0\n1,0,0,0,1,0,0\n";
+  }
+  for (const char* arguments :
+       {"collide cube.obj cube.obj --poses many.csv -o never.csv --modes 20000 --threads 1",
+        "assemble cube.obj cube.obj --path slow.csv --rate 0.01 --grid 16 --modes 200"}) {
+    const pid_t process = start(arguments);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    const auto sent = std::chrono::steady_clock::now();
+    ::kill(process, SIGINT);
+    EXPECT_EQ(finish(process).code, 130) << arguments;
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(40)) << arguments;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("never.csv")));
 }
 
 TEST_F(PartPrograms, AssembleFollowsAPathAndLetsGo) {
@@ -74,6 +127,13 @@ TEST_F(PartPrograms, AssembleFollowsAPathAndLetsGo) {
   const nlohmann::json again = this->json(
       "assemble cube.obj cube.obj --path path.csv --rate 5000 --grid 24 --modes 500 -o again.csv");
   EXPECT_EQ(again["steps"], 200);
+  // Steps out of reach cost nothing and are not counted.
+  std::ofstream(path("far.csv")) << "qw,qx,qy,qz,tx,ty,tz\n1,0,0,0,1,0,0\n1,0,0,0,99,0,0\n";
+  const nlohmann::json far =
+      this->json("assemble cube.obj cube.obj --path far.csv --grid 24 --modes 500");
+  EXPECT_EQ(far["steps"], 2);
+  EXPECT_EQ(far["compute_microseconds"]["steps"], 1);
+  EXPECT_GT(far["compute_microseconds"]["median"].get<double>(), 0.0);
   const nlohmann::json free =
       this->json("assemble cube.obj cube.obj --goal goal.csv --free 3 --grid 24 --modes 500");
   EXPECT_EQ(free["starts"], 3);
@@ -107,6 +167,18 @@ TEST_F(PartPrograms, BadInputIsNamed) {
   outcome = mortise("assemble cube.obj cube.obj");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("one of --path, --goal and --mates"));
+  const std::string free = "assemble cube.obj cube.obj --goal goal.csv --free 2 ";
+  EXPECT_EQ(mortise(free + "--plot a.svg").code, 1);
+  EXPECT_EQ(mortise(free + "--write-path a.csv").code, 1);
+  expect_user_error(free + "--start-shift nan", "--start-shift");
+  expect_user_error(free + "--start-angle -1", "--start-angle");
+  expect_user_error(free + "--thickness -1", "--thickness");
+  expect_user_error(free + "--thickness nan", "--thickness");
+  expect_user_error("assemble cube.obj cube.obj --goal goal.csv -o goal.csv", "found an input");
+  const std::string small = "assemble cube.obj cube.obj --grid 16 --modes 200 --quiet ";
+  expect_user_error(small + "--goal goal.csv --seconds 1e15", "seconds times rate");
+  std::ofstream(path("empty.csv")) << "qw,qx,qy,qz,tx,ty,tz\n";
+  expect_user_error(small + "--path empty.csv", "holds no pose");
 }
 
 }  // namespace

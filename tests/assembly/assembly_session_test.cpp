@@ -2,6 +2,7 @@
 // Energy, force and torque of analytic parts, letting go, and hand motions.
 #include "mortise/assembly/assembly_session.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +10,10 @@
 
 #include "collision/bodies.hpp"
 #include "mortise/assembly/hand_path.hpp"
+#include "mortise/assembly/mortise_wrench.h"
 #include "mortise/assembly/part_field.hpp"
 #include "mortise/core/errors.hpp"
+#include "parts/shapes.hpp"
 
 namespace mortise {
 namespace {
@@ -143,6 +146,40 @@ TEST(HandPath, EndsAtTheGoalWithoutJumpsAndIsDeterministic) {
   EXPECT_NEAR(std::sqrt(sum / 4000.0), 0.004, 0.0015);  // the tremor asked for: 0.002 of radius 2
 }
 
+// A cube's triangles for the C interface.
+struct CCube {
+  TriangleMesh mesh = shapes::cube(1.0);
+  [[nodiscard]] mortise_mesh view() const {
+    return {mesh.vertices.data(), static_cast<long>(mesh.vertices.cols()), mesh.triangles.data(),
+            static_cast<long>(mesh.size())};
+  }
+};
+
+TEST(CInterface, RefusesOpenAndInsideOutMeshesAndBadThickness) {
+  const CCube good, open{shapes::without_last(good.mesh, 1)}, inward{shapes::inside_out(good.mesh)};
+  mortise_session_options options = {};
+  options.grid = 16;
+  options.modes = 200;
+  const auto create = [&](const CCube& fixed, const CCube& moving) {
+    const mortise_mesh a = fixed.view(), b = moving.view();
+    mortise_session* session = nullptr;
+    const int code = mortise_session_create(&a, &b, &options, &session);
+    EXPECT_EQ(code == 0, session != nullptr);
+    mortise_session_free(session);
+    return code;
+  };
+  EXPECT_EQ(create(good, good), 0);
+  EXPECT_EQ(create(good, open), 1);
+  EXPECT_THAT(mortise_last_error(), ::testing::HasSubstr("moving mesh is open"));
+  EXPECT_EQ(create(inward, good), 1);
+  EXPECT_THAT(mortise_last_error(), ::testing::HasSubstr("fixed mesh has the volume -1"));
+  for (const double thickness : {-1.0, std::nan("")}) {
+    options.thickness = thickness;
+    EXPECT_EQ(create(good, good), 1);
+    EXPECT_THAT(mortise_last_error(), ::testing::HasSubstr("thickness"));
+  }
+}
+
 TEST(AssemblySession, RefusesBadInput) {
   const BoxSolid box({1, 1, 1}, false);
   EXPECT_THROW((void)double_skin_field(box, {.grid = 4}), InputError);
@@ -150,6 +187,12 @@ TEST(AssemblySession, RefusesBadInput) {
   EXPECT_THROW((void)hand_path({}, {0, 0, 0}, 0.0), InputError);
   const PegInHole parts(200, 24);
   EXPECT_THROW((void)follow(parts.session, {}, {.step = 0.0}), InputError);
+  EXPECT_THROW((void)hand_path({}, {0, 0, 0}, 1.0, {.seconds = 1e15}), InputError);
+  RigidMotion bad;
+  bad.translation[0] = std::nan("");
+  EXPECT_THROW((void)parts.session.wrench(bad), InputError);
+  EXPECT_THROW((void)parts.session.wrench({Eigen::Quaterniond(0, 30, 0, 0), {0, 0, 0}}),
+               InputError);
 }
 
 }  // namespace

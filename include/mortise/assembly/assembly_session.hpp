@@ -27,8 +27,8 @@ struct Wrench {
 };
 
 /// E(R, t) = -Re Int rho_fixed(x) rho_moving(R^T (x - t)) dx / depth from the m' modes of least
-/// |w|, with force and torque its gradient [HA, Eq. 7-12]; made once per pair of parts. Immutable;
-/// serves any number of threads.
+/// |w|, with force and torque its gradient [HA, Eq. 7-12]; made once per pair of parts. Serves
+/// any number of threads, as long as none calls set_depth.
 class AssemblySession {
  public:
   /// @throws InputError on bad densities or options
@@ -39,6 +39,7 @@ class AssemblySession {
   AssemblySession& operator=(AssemblySession&&) noexcept;
 
   /// No allocation, no lock. @param modes  only the first so many; 0 = all
+  /// @throws InputError unless the motion is finite with a unit quaternion
   [[nodiscard]] Wrench wrench(const RigidMotion& moving_in_fixed, int modes = 0) const;
 
   /// The unit of energy, 1 at first: give the depth of the mate's well and energies there are about

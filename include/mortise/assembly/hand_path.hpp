@@ -23,7 +23,7 @@ struct HandPathOptions {
 /// A hand that brings a part of the given radius (about `centre`, moving frame) to several places
 /// near the goal, pushes it on from each towards the goal, backs off, and at last stays at the
 /// goal. Segments are of minimum jerk; tremor is a sum of sines of random phase.
-/// @throws InputError if an option is out of range
+/// @throws InputError if an option is out of range or there were more than 2e7 poses
 [[nodiscard]] std::vector<RigidMotion> hand_path(const RigidMotion& goal,
                                                  const Eigen::Vector3d& centre, double radius,
                                                  const HandPathOptions& options = {});

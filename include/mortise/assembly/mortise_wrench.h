@@ -16,7 +16,7 @@ extern "C" {
 
 /* NOLINTBEGIN(modernize-use-using,readability-identifier-naming): this is C. */
 
-/** A closed triangle mesh, corners counter-clockwise seen from outside. */
+/** A closed triangle mesh, corners counter-clockwise seen from outside; others are refused. */
 typedef struct mortise_mesh {
   const double* vertices; /**< 3 per vertex, the part's own frame */
   long vertex_count;
