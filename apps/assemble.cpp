@@ -95,11 +95,13 @@ Session make_session(const AssembleFlags& options) {
   ReadPartResult moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
   const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
-  if (!options.common.quiet)
-    for (const auto& [name, part] :
-         {std::pair(&options.fixed, &fixed), std::pair(&options.moving, &moving)})
-      for (const std::string& decision : part->decisions)
-        std::fprintf(stderr, "mortise: %s: %s\n", name->c_str(), decision.c_str());
+  const auto tell = [&](const std::string& name, const ReadPartResult& part) {
+    if (options.common.quiet) return;
+    for (const std::string& decision : part.decisions)
+      std::fprintf(stderr, "mortise: %s: %s\n", name.c_str(), decision.c_str());
+  };
+  tell(options.fixed, fixed);
+  tell(options.moving, moving);
   const double thickness = options.field.thickness > 0.0
                                ? options.field.thickness
                                : std::min(default_thickness(first), default_thickness(second));
@@ -314,19 +316,23 @@ void let_go(const AssembleFlags& options, const Session& made) {
   }
   if (!options.output.empty()) write_pose_csv(options.output, ends);
   const double drift = (mate.pose * centre - true_place * centre).norm() / radius;
+  // Further off the part does not stay where it belongs: its rest is another one.
+  const bool holds = drift <= 0.2;
   if (options.common.json) {
     const nlohmann::ordered_json figures = {{"starts", options.free_starts},
                                             {"home", home},
                                             {"home_without_symmetries", unmoved},
                                             {"mate_energy", mate.wrench.energy},
-                                            {"mate_drift", drift}};
+                                            {"mate_drift", drift},
+                                            {"mate_holds", holds}};
     std::printf("%s\n", figures.dump().c_str());
     return;
   }
   if (options.common.quiet) return;
   std::printf("mate    energy %.4g, rests %.2f%% of the radius from the goal\n", mate.wrench.energy,
               100.0 * drift);
-  std::printf("starts  %d of %d end in it\n", home, options.free_starts);
+  std::printf("starts  %d of %d end %s\n", home, options.free_starts,
+              holds ? "in it" : "there; it is too far off to count as the mate");
 }
 
 void run(AssembleFlags options) {

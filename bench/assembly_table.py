@@ -24,21 +24,21 @@ def main():
     parser.add_argument("--only", default="")
     options = parser.parse_args(sys.argv[1:split])
     further = sys.argv[split + 1:] or ["--free", "50", "--grid", "64"]
-    print("| pair | symmetries | starts | end in the mate | without symmetries | mate rests off a true placement, % of the radius |")
-    print("|---|---|---|---|---|---|", flush=True)
-    sums = [0, 0, 0]
+    print("| pair | symmetries | starts | end in the mate | end at its rest | without symmetries | rest off a true placement, % of the radius |")
+    print("|---|---|---|---|---|---|---|", flush=True)
+    sums = [0, 0, 0, 0]
     for pair in json.loads(options.mates.read_text())["pairs"]:
         if options.only and pair["name"] not in options.only.split(","):
             continue
         files = [options.mates.parent / f"{pair[body]}.stl" for body in ("fixed", "moving")]
         command = [options.mortise, "assemble", *files, "--mates", options.mates, "--pair", pair["name"], "--json", *further]
         found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-        counts = [found[key] for key in ("starts", "home", "home_without_symmetries")]
+        counts = [found["starts"], found["home"] if found["mate_holds"] else 0, found["home"], found["home_without_symmetries"]]
         sums = [a + b for a, b in zip(sums, counts)]
         kinds = ", ".join(s["kind"] for s in pair.get("symmetries", [])) or "-"
-        print(f"| {pair['name']} | {kinds} | {counts[0]} | {counts[1]} | {counts[2]} | {100 * found['mate_drift']:.1f} |",
+        print(f"| {pair['name']} | {kinds} | {counts[0]} | {counts[1]} | {counts[2]} | {counts[3]} | {100 * found['mate_drift']:.1f} |",
               flush=True)
-    print(f"| all | | {sums[0]} | {sums[1]} | {sums[2]} | |")
+    print(f"| all | | {sums[0]} | {sums[1]} | {sums[2]} | {sums[3]} | |")
 
 
 if __name__ == "__main__":
