@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <iomanip>
 #include <memory>
 #include <numbers>
@@ -18,6 +19,8 @@
 #include "mortise/assembly/hand_path.hpp"
 #include "mortise/assembly/part_field.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/metrics/placement.hpp"
+#include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/read_part.hpp"
 #include "mortise/store/atomic_file.hpp"
@@ -28,7 +31,7 @@ namespace {
 
 struct AssembleFlags {
   CommonOptions common;
-  std::string fixed, moving, path, goal, output, plot, write_path;
+  std::string fixed, moving, path, goal, mates, pair, output, plot, write_path;
   double rate = 1000.0;
   PartFieldOptions field;
   std::string field_kind = "double-skin";
@@ -68,7 +71,8 @@ void check_flags(const AssembleFlags& options) {
   check(options.rate, 1e-3, 1e6, "rate");
   for (const std::string& output : {options.output, options.plot, options.write_path}) {
     if (output.empty()) continue;
-    for (const std::string& input : {options.fixed, options.moving, options.path, options.goal})
+    for (const std::string& input :
+         {options.fixed, options.moving, options.path, options.goal, options.mates})
       refuse_to_overwrite_input(output, input);
     check_writable(output);
   }
@@ -81,17 +85,19 @@ void stop_if_interrupted(const char* what_is_lost) {
 struct Session {
   AssemblySession session;
   double seconds;
-  long fixed_triangles, moving_triangles;
+  long fixed_triangles;
+  TriangleMesh moving;
 };
 
 Session make_session(const AssembleFlags& options) {
   const auto start = std::chrono::steady_clock::now();
-  const ReadPartResult fixed = read_part(options.fixed), moving = read_part(options.moving);
+  const ReadPartResult fixed = read_part(options.fixed);
+  ReadPartResult moving = read_part(options.moving);
   const MeshSolidOptions solid{.threads = options.common.threads};
   const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
   if (!options.common.quiet)
     for (const auto& [name, part] :
-         {std::pair(&options.fixed, &fixed), std::pair(&options.moving, &moving)})
+         {std::pair(&options.fixed, &fixed), std::pair(&options.moving, &std::as_const(moving))})
       for (const std::string& decision : part->decisions)
         std::fprintf(stderr, "mortise: %s: %s\n", name->c_str(), decision.c_str());
   const double thickness = options.field.thickness > 0.0
@@ -112,7 +118,7 @@ Session make_session(const AssembleFlags& options) {
   AssemblySession session(density(first), density(second), options.assembly);
   return {std::move(session),
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-          static_cast<long>(fixed.mesh.size()), static_cast<long>(moving.mesh.size())};
+          static_cast<long>(fixed.mesh.size()), std::move(moving.mesh)};
 }
 
 double now() {
@@ -202,13 +208,25 @@ void write_plot(const std::string& file_name, const Loop& loop, double rate) {
                    {"time per step (us)", {{"", loop.compute}}}});
 }
 
-std::vector<RigidMotion> path_of(const AssembleFlags& options, const AssemblySession& session) {
-  if (!options.path.empty()) return read_pose_csv(options.path);
+// Where the part belongs: of a truth file with its symmetries, of a table of poses the first.
+TrueMate goal_of(const AssembleFlags& options) {
+  if (!options.mates.empty())
+    return find_true_mate(read_true_mates(options.mates),
+                          std::filesystem::path(options.fixed).stem().string(),
+                          std::filesystem::path(options.moving).stem().string(), options.pair);
   const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
   if (goals.empty()) throw FileError(options.goal, "holds no pose");
+  TrueMate mate;
+  mate.moving_in_fixed = goals.front();
+  return mate;
+}
+
+std::vector<RigidMotion> path_of(const AssembleFlags& options, const AssemblySession& session) {
+  if (!options.path.empty()) return read_pose_csv(options.path);
   HandPathOptions hand = options.hand;
   hand.rate = options.rate;
-  return hand_path(goals.front(), session.moving_centre(), session.moving_radius(), hand);
+  return hand_path(goal_of(options).moving_in_fixed, session.moving_centre(),
+                   session.moving_radius(), hand);
 }
 
 void follow_path(const AssembleFlags& options, const Session& made) {
@@ -227,21 +245,22 @@ void follow_path(const AssembleFlags& options, const Session& made) {
                                     {"percentile_99_9", l.percentile_999},
                                     {"largest", l.largest}};
     };
-    const nlohmann::ordered_json figures = {{"steps", path.size()},
-                                            {"rate", options.rate},
-                                            {"modes", made.session.modes()},
-                                            {"fixed_triangles", made.fixed_triangles},
-                                            {"moving_triangles", made.moving_triangles},
-                                            {"preparation_seconds", made.seconds},
-                                            {"compute_microseconds", quantiles(compute)},
-                                            {"step_microseconds", quantiles(late)},
-                                            {"misses", loop.misses}};
+    const nlohmann::ordered_json figures = {
+        {"steps", path.size()},
+        {"rate", options.rate},
+        {"modes", made.session.modes()},
+        {"fixed_triangles", made.fixed_triangles},
+        {"moving_triangles", static_cast<long>(made.moving.size())},
+        {"preparation_seconds", made.seconds},
+        {"compute_microseconds", quantiles(compute)},
+        {"step_microseconds", quantiles(late)},
+        {"misses", loop.misses}};
     std::printf("%s\n", figures.dump().c_str());
     return;
   }
   if (options.common.quiet) return;
   std::printf("parts        %ld and %ld triangles, prepared in %.1f s\n", made.fixed_triangles,
-              made.moving_triangles, made.seconds);
+              static_cast<long>(made.moving.size()), made.seconds);
   std::printf("path         %zu steps at %g Hz, m' = %d modes\n", path.size(), options.rate,
               made.session.modes());
   std::printf("us per step  median    99%%  99.9%%  largest\n");
@@ -254,13 +273,16 @@ void follow_path(const AssembleFlags& options, const Session& made) {
     std::printf("out of reach %zu steps, not counted under wrench\n", path.size() - compute.steps);
 }
 
-// Random starts around a goal, let go; home is within 2% of the radius and 2 degrees.
+// Random starts around a goal, let go; home is within 2% of the radius and 2 degrees of where the
+// mate rests, or of that moved by the symmetries that the truth file records.
 void let_go(const AssembleFlags& options, const Session& made) {
-  const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
-  if (goals.empty()) throw FileError(options.goal, "holds no pose");
+  TrueMate truth = goal_of(options);
   const AssemblySession& session = made.session;
-  const RigidMotion& goal = goals.front();
+  const RigidMotion goal = truth.moving_in_fixed;
   const Rest mate = follow(session, goal, options.follow);
+  const RigidMotion true_place = Placement(made.moving, truth).nearest(mate.pose);
+  truth.moving_in_fixed = mate.pose;
+  const Placement placement(made.moving, truth);
   const double radius = session.moving_radius();
   const Eigen::Vector3d& centre = session.moving_centre();
   std::mt19937_64 random(options.hand.seed);
@@ -272,7 +294,7 @@ void let_go(const AssembleFlags& options, const Session& made) {
     return p;
   };
   std::vector<RigidMotion> ends;
-  int home = 0;
+  int home = 0, unmoved = 0;
   for (int i = 0; i < options.free_starts; ++i) {
     const Eigen::Vector3d turn = options.start_angle * std::numbers::pi / 180.0 * in_ball();
     stop_if_interrupted("no poses of rest were written");
@@ -283,15 +305,19 @@ void let_go(const AssembleFlags& options, const Session& made) {
         goal * centre + options.start_shift * radius * in_ball() - start.rotation * centre;
     const Rest rest = follow(session, start, options.follow);
     ends.push_back(rest.pose);
-    if ((rest.pose * centre - mate.pose * centre).norm() < 0.02 * radius &&
-        rotation_angle(rest.pose.rotation, mate.pose.rotation) < 2.0 * std::numbers::pi / 180.0)
-      ++home;
+    const auto near = [&](const RigidMotion& place) {
+      return (rest.pose * centre - place * centre).norm() < 0.02 * radius &&
+             rotation_angle(rest.pose.rotation, place.rotation) < 2.0 * std::numbers::pi / 180.0;
+    };
+    if (near(mate.pose)) ++unmoved;
+    if (near(mate.pose) || near(placement.nearest(rest.pose))) ++home;
   }
   if (!options.output.empty()) write_pose_csv(options.output, ends);
-  const double drift = (mate.pose * centre - goal * centre).norm() / radius;
+  const double drift = (mate.pose * centre - true_place * centre).norm() / radius;
   if (options.common.json) {
     const nlohmann::ordered_json figures = {{"starts", options.free_starts},
                                             {"home", home},
+                                            {"home_without_symmetries", unmoved},
                                             {"mate_energy", mate.wrench.energy},
                                             {"mate_drift", drift}};
     std::printf("%s\n", figures.dump().c_str());
@@ -305,10 +331,10 @@ void let_go(const AssembleFlags& options, const Session& made) {
 
 void run(AssembleFlags options) {
   options.field.threads = options.assembly.threads = options.common.threads;
-  if (options.path.empty() == options.goal.empty())
-    throw InputError("assemble: give either --path or --goal");
-  if (options.free_starts > 0 && options.goal.empty())
-    throw InputError("assemble: --free starts around a pose: give --goal");
+  if (int{options.path.empty()} + int{options.goal.empty()} + int{options.mates.empty()} != 2)
+    throw InputError("assemble: give one of --path, --goal and --mates");
+  if (options.free_starts > 0 && !options.path.empty())
+    throw InputError("assemble: --free starts around a pose: give --goal or --mates");
   const Session made = make_session(options);
   if (options.free_starts > 0)
     let_go(options, made);
@@ -329,6 +355,11 @@ void add_assemble(CLI::App& program) {
   command->add_option(
       "--goal", options->goal,
       "CSV whose first pose is the mate: a hand that explores and ends there is made up");
+  command->add_option("--mates", options->mates,
+                      "File of true placements, as parts/mates.json, in place of --goal; --free "
+                      "then counts rest at the mate's symmetries too");
+  command->add_option("--pair", options->pair,
+                      "Name of the pair in that file; default: by the parts' file names");
   command->add_option("--seconds", options->hand.seconds, "Length of the made-up path")
       ->capture_default_str();
   command->add_option("--seed", options->hand.seed, "Of the made-up path or of the starts")
@@ -371,7 +402,7 @@ void add_assemble(CLI::App& program) {
   command
       ->add_option(
           "--free", options->free_starts,
-          "Let the part go from so many random starts near --goal and count those that snap in")
+          "Let the part go from so many random starts near the goal and count those that snap in")
       ->excludes(plot)
       ->excludes(write_path)
       ->capture_default_str()
@@ -387,7 +418,8 @@ void add_assemble(CLI::App& program) {
       *command, options->common,
       "  mortise assemble block.stl peg.stl --path hand.csv -o wrench.csv --plot wrench.svg\n"
       "  mortise assemble block.stl peg.stl --goal mate.csv --seconds 30 --json\n"
-      "  mortise assemble block.stl peg.stl --goal mate.csv --free 50\n");
+      "  mortise assemble block.stl peg.stl --goal mate.csv --free 50\n"
+      "  mortise assemble block.stl peg.stl --mates mates.json --free 50\n");
   command->callback([options] {
     check_flags(*options);
     run(*options);

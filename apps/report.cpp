@@ -69,17 +69,38 @@ void add_report(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
+      .add_option_function<std::string>(
+          "--cluster",
+          [options](const std::string& name) {
+            options->report.clusters.measure = parse_cluster_measure(name);
+          },
+          "What poses of one cluster share: ligand, the RMSD of the moving body where the fixed\n"
+          "one stays; interface, the RMSD of both bodies' interface, superposed  [ligand]")
+      ->check(CLI::IsMember({"ligand", "interface"}))
+      ->type_name("NAME");
+  command
       .add_option_function<double>(
-          "--cluster-radius", [options](double radius) { options->report.cluster_radius = radius; },
-          "RMSD below which two poses are one cluster; 0 = the run's own clusters; default:\n"
-          "those if one holds several poses, else a tenth of the moving body's diameter")
-      ->check(CLI::NonNegativeNumber);
+          "--cluster-radius",
+          [options](double radius) { options->report.clusters.radius = radius; },
+          "RMSD below which two poses are one cluster, length unit; 0 = the run's own clusters;\n"
+          "default: by ligand those if one holds several poses, else a tenth of the moving body's\n"
+          "diameter; by interface 3 A, or a twentieth of that diameter for parts")
+      ->type_name("FLOAT");
+  command
+      .add_option("--min-cluster-size", options->report.clusters.min_size,
+                  "Clusters of fewer poses are not listed; their poses stay")
+      ->capture_default_str();
   command
       .add_option("--interfaces", options->report.interfaces,
                   "Best poses of molecules whose interface is described: area, contacts, hydrogen\n"
                   "bonds, clashes, Sc; where evaluate --interface has not done it")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
+  command
+      .add_option(
+          "--page-triangles", options->report.part_triangles,
+          "A larger part is simplified to about so many on the page, which says by how much")
+      ->capture_default_str();
   command
       .add_option("--png", options->report.pictures,
                   "So many best poses as PNG, ray traced, and the plots: for papers")
@@ -88,11 +109,21 @@ void add_report(CLI::App& program) {
   command.add_option("--fixed", options->places.fixed.path, "Where the fixed body's file is now");
   command.add_option("--moving", options->places.moving.path,
                      "Where the moving body's file is now");
+  command
+      .add_option("--search", options->places.trees,
+                  "Directories, with all below them, to look through for inputs that moved")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  command.add_flag("--allow-missing", options->places.allow_missing,
+                   "Make the report without structures whose files are not found");
   command.add_flag("--force", options->force, "Accept input files that have changed since the run");
   add_common_options(
       command, options->common,
       "  mortise report run.h5 -o report/\n"
       "  mortise report run.h5 --top 3 --png 3\n"
+      "  mortise report run.h5 --cluster interface --cluster-radius 4 --min-cluster-size 3\n"
+      "  mortise report run.h5 --search ~/structures --search /archive\n"
       "The page is index.html in that directory; it opens in any browser, without a\n"
       "network. Inputs that have moved are looked for, by SHA-256, beside the run and\n"
       "in the present directory.");

@@ -12,6 +12,7 @@ find_package(spdlog REQUIRED)
 # Meshes; header only. Kernels are exact where they must be (GMP, MPFR).
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
 find_package(CGAL 5.5 REQUIRED)
+find_package(meshoptimizer REQUIRED CONFIG)  # simplifies large parts for the report page
 find_package(OpenCASCADE REQUIRED CONFIG)  # its version file accepts no range
 set(MORTISE_OCCT_TOOLKITS TKSTEP TKSTEPBase TKXSBase TKMesh TKTopAlgo TKBRep TKG3d TKMath TKernel)
 # OpenMM's readers are Python: use Debian's interpreter, not whatever stands first on the PATH.

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the figures of docs/figures from data that the benchmark programs print.
 
-Usage: make_figures.py [--build DIR] [--data DIR] [--keep-data] [FIGURE...]
+Usage: make_figures.py [--build DIR] [--data DIR] [--mesh FILE] [--keep-data] [FIGURE...]
 
-Without FIGURE: all. --keep-data draws from the CSV of an earlier run where it is there.
+Without FIGURE: all. --keep-data draws from the CSV of an earlier run where it is there. --mesh is the body of the
+spectra's figure, by default the Stanford bunny of ../shared/meshes; where it is not, that figure is left out.
 """
 
 import argparse
@@ -41,6 +42,7 @@ class Maker:
         self.build = options.build
         self.data = options.data
         self.keep = options.keep_data
+        self.mesh = options.mesh
         self.data.mkdir(parents=True, exist_ok=True)
 
     def rows(self, name, *command):
@@ -207,13 +209,47 @@ def query_time(maker):
     maker.save(figure, "gap_query_time.png")
 
 
-FIGURES = {"hausdorff": hausdorff, "se2": se2, "convergence": convergence, "residual": residual, "query_time": query_time}
+def spectrum(maker):
+    """Rasterise + FFT against 4D NDFT and NFFT, by the modes that are wanted [SD, Fig. 8]."""
+    if not maker.mesh.exists():
+        print("left out: the spectra's figure needs", maker.mesh)
+        return
+    items = []
+    for grid in (16, 32, 64, 128):
+        knots = maker.data / f"{maker.mesh.stem}_{grid}.h5"
+        if not (maker.keep and knots.exists()):
+            subprocess.run([maker.build / "apps" / "mortise", "decompose", maker.mesh, "-o", knots, "--grid", str(grid),
+                            "--mu", "0.25", "--no-hausdorff", "--quiet"], check=True)
+        items.append(f"{grid}={knots}")
+    rows = maker.rows("spectrum", "spectrum_data", *items)
+    grids = sorted({int(r["grid"]) for r in rows})
+    figure, axes = plt.subplots(1, len(grids), figsize=(11, 3.3), sharey=True)
+    for axis, grid in zip(axes, grids):
+        some = [r for r in rows if int(r["grid"]) == grid]
+        axis.axhline(float(some[0]["raster"]) + float(some[0]["fft"]), color=INK, lw=2, label="rasterise + 3D FFT")
+        axis.axhline(float(some[0]["raster"]), color=INK, lw=1, ls=":", label="rasterise alone")
+        for column, color, marker, label in (("ndft4d", ACCENT, "o", "4D NDFT"), ("nfft4d", LIGHT, "s", "4D NFFT"),
+                                             ("compressed", "#e09f3e", "^", "compressed radii, 3D NFFTs")):
+            points = [(int(r["modes"]) ** 3, float(r[column])) for r in some if float(r[column]) > 0]
+            axis.loglog(*zip(*points), color=color, marker=marker, ms=4, label=label, base=2)
+        axis.set_yscale("log", base=10)
+        axis.set_xlim(2**5.5, 2**21.5)
+        axis.set_title(f"m = $2^{{{3 * int(np.log2(grid))}}}$ nodes, {int(some[0]['knots'])} balls")
+        axis.set_xlabel("modes wanted m'")
+    axes[0].set_ylabel("CPU seconds, one core")
+    axes[0].legend(frameon=False, fontsize=7)
+    maker.save(figure, "spectrum_time.png")
+
+
+FIGURES = {"hausdorff": hausdorff, "se2": se2, "convergence": convergence, "residual": residual, "query_time": query_time,
+           "spectrum": spectrum}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--data", type=pathlib.Path, default=ROOT / "out" / "figures")
+    parser.add_argument("--mesh", type=pathlib.Path, default=ROOT.parent / "shared" / "meshes" / "stanford-bunny.obj")
     parser.add_argument("--keep-data", action="store_true")
     parser.add_argument("figures", nargs="*", choices=[*FIGURES, []], metavar="FIGURE")
     options = parser.parse_args()

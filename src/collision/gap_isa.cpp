@@ -23,6 +23,7 @@ constexpr int kLanes = 4;
 constexpr int kParts = 16 / kLanes;
 using Vector __attribute__((vector_size(kLanes * sizeof(float)))) = float;
 using Eight __attribute__((vector_size(8 * sizeof(float)))) = float;
+using Sixteen __attribute__((vector_size(16 * sizeof(float)))) = float;
 
 // Vectors wider than the processor's go by reference: they have no place in its calling convention.
 template <class V>
@@ -41,21 +42,31 @@ struct Lanes {
   return r;
 }
 
+// The kernel's four values and four derivatives along y and along z at one mode.
+struct Weights {
+#if defined(__AVX512F__)
+  Sixteen yz;
+#else
+  Eight y, z;
+#endif
+};
+
 // Kernel values w[0..3] over the four z, each on four lanes.
-[[gnu::always_inline]] inline Lanes along_z(const Eight& w, bool derivative) {
+[[gnu::always_inline]] inline Lanes along_z(const Weights& w, bool derivative) {
   Lanes r;
 #if defined(__AVX512F__)
-  r.part[0] = derivative
-                  ? __builtin_shufflevector(w, w, 4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7)
-                  : __builtin_shufflevector(w, w, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  r.part[0] = derivative ? __builtin_shufflevector(w.yz, w.yz, 12, 12, 12, 12, 13, 13, 13, 13, 14,
+                                                   14, 14, 14, 15, 15, 15, 15)
+                         : __builtin_shufflevector(w.yz, w.yz, 8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10,
+                                                   10, 11, 11, 11, 11);
 #elif defined(__AVX__)
-  r.part[0] = derivative ? __builtin_shufflevector(w, w, 4, 4, 4, 4, 5, 5, 5, 5)
-                         : __builtin_shufflevector(w, w, 0, 0, 0, 0, 1, 1, 1, 1);
-  r.part[1] = derivative ? __builtin_shufflevector(w, w, 6, 6, 6, 6, 7, 7, 7, 7)
-                         : __builtin_shufflevector(w, w, 2, 2, 2, 2, 3, 3, 3, 3);
+  r.part[0] = derivative ? __builtin_shufflevector(w.z, w.z, 4, 4, 4, 4, 5, 5, 5, 5)
+                         : __builtin_shufflevector(w.z, w.z, 0, 0, 0, 0, 1, 1, 1, 1);
+  r.part[1] = derivative ? __builtin_shufflevector(w.z, w.z, 6, 6, 6, 6, 7, 7, 7, 7)
+                         : __builtin_shufflevector(w.z, w.z, 2, 2, 2, 2, 3, 3, 3, 3);
 #else
   for (int p = 0; p < kParts; ++p) {
-    const float x = w[(derivative ? 4 : 0) + p];
+    const float x = w.z[(derivative ? 4 : 0) + p];
     r.part[p] = Vector{x, x, x, x};
   }
 #endif
@@ -64,14 +75,14 @@ struct Lanes {
 
 // Kernel values w[first], w[first + 1] over a pair in y, (re, im) each.
 template <int First>
-[[gnu::always_inline]] inline Vector along_y(const Eight& w) {
+[[gnu::always_inline]] inline Vector along_y(const Weights& w) {
   constexpr int a = First, b = First + 1;
 #if defined(__AVX512F__)
-  return __builtin_shufflevector(w, w, a, a, b, b, a, a, b, b, a, a, b, b, a, a, b, b);
+  return __builtin_shufflevector(w.yz, w.yz, a, a, b, b, a, a, b, b, a, a, b, b, a, a, b, b);
 #elif defined(__AVX__)
-  return __builtin_shufflevector(w, w, a, a, b, b, a, a, b, b);
+  return __builtin_shufflevector(w.y, w.y, a, a, b, b, a, a, b, b);
 #else
-  return Vector{w[a], w[a], w[b], w[b]};
+  return Vector{w.y[a], w.y[a], w.y[b], w.y[b]};
 #endif
 }
 
@@ -89,8 +100,9 @@ struct Block {
   alignas(64) float u[3][kModeBlock];  // samples, from the table's centre
   alignas(64) float z[3][kModeBlock];  // place in the cell, in [-1, 1]
   alignas(64) int cell[3][kModeBlock];
-  alignas(64) float cosine[2 * kModeBlock];  // (re, im) of P
-  alignas(64) float sine[2 * kModeBlock];    // (im, -re) of P
+  alignas(64) float cosine[2 * kModeBlock];             // (re, im) of P
+  alignas(64) float sine[2 * kModeBlock];               // (im, -re) of P
+  alignas(64) float along_x[2 * kStencil][kModeBlock];  // kernel: values, then derivatives
 };
 
 [[gnu::always_inline]] inline void prepare(const GapJob& job, std::ptrdiff_t first, Block& block) {
@@ -138,14 +150,61 @@ struct Block {
   }
 }
 
-// The kernel's four values and four derivatives at place z of a cell.
-[[gnu::always_inline]] inline void weights(const float* pieces, float z, Eight& w) {
-  load(pieces, w);
+// The kernel along x, mode beside mode: its values are wanted as scalars, one per x.
+[[gnu::always_inline]] inline void weigh_x(const float* pieces, Block& block) {
+  for (int tap = 0; tap < 2 * kStencil; ++tap)
+    for (int i = 0; i < kModeBlock; ++i) {
+      const float z = block.z[0][i];
+      float w = pieces[tap];
+      for (int term = 1; term < kPieceTerms; ++term) w = w * z + pieces[8 * term + tap];
+      block.along_x[tap][i] = w;
+    }
+}
+
+// The kernel along y and z. `pieces`: twice side by side for AVX-512.
+[[gnu::always_inline]] inline void weigh_yz(const float* pieces, float y, float z, Weights& w) {
+#if defined(__AVX512F__)
+  using Mask __attribute__((vector_size(64))) = int;
+  constexpr Mask kLow = {-1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0};
+  const Sixteen place = kLow ? y - Sixteen{} : z - Sixteen{};  // plus zero would be an addition
+  load(pieces, w.yz);
+  for (int term = 1; term < kPieceTerms; ++term) {
+    Sixteen next;
+    load(pieces + 16 * term, next);
+    w.yz = w.yz * place + next;
+  }
+#else
+  load(pieces, w.y);
+  load(pieces, w.z);
   for (int term = 1; term < kPieceTerms; ++term) {
     Eight next;
     load(pieces + 8 * term, next);
-    w = w * z + next;
+    w.y = w.y * y + next;
+    w.z = w.z * z + next;
   }
+#endif
+}
+
+// The pieces as weigh_yz wants them.
+struct PiecesYz {
+#if defined(__AVX512F__)
+  alignas(64) float twice[16 * kPieceTerms];
+  explicit PiecesYz(const float* pieces) {
+    for (int i = 0; i < 16 * kPieceTerms; ++i) twice[i] = pieces[i / 16 * 8 + i % 8];
+  }
+#else
+  const float* twice;
+  explicit PiecesYz(const float* pieces) : twice(pieces) {}
+#endif
+};
+
+// Keeps the compiler from reading the same memory again at each use: most of these reads cross two
+// cache lines.
+[[gnu::always_inline]] inline void load_once(const float* p, Vector& v) {
+  load(p, v);
+#if defined(__x86_64__)
+  __asm__("" : "+v"(v));
+#endif
 }
 
 double total(const Lanes& lanes) {
@@ -157,19 +216,18 @@ double total(const Lanes& lanes) {
 }
 
 void sum(const GapJob& job, GapSums* sums) {
+  const PiecesYz pieces(job.pieces);
   double value = 0.0, translation[3] = {}, rotation[3] = {};
   Lanes v = zero(), t[3] = {zero(), zero(), zero()}, r[3] = {zero(), zero(), zero()};
   for (std::ptrdiff_t first = 0; first < job.count; first += kModeBlock) {
     Block block;
     prepare(job, first, block);
+    weigh_x(job.pieces, block);
     for (int i = 0; i < kModeBlock; ++i) {
-      Eight wx, wy, wz;
-      weights(job.pieces, block.z[0][i], wx);
-      weights(job.pieces, block.z[1][i], wy);
-      weights(job.pieces, block.z[2][i], wz);
-      const Lanes z0 = along_z(wz, false), z1 = along_z(wz, true);
-      const Vector ya[2] = {along_y<0>(wy), along_y<2>(wy)},
-                   yb[2] = {along_y<4>(wy), along_y<6>(wy)};
+      Weights w;
+      weigh_yz(pieces.twice, block.z[1][i], block.z[2][i], w);
+      const Lanes z0 = along_z(w, false), z1 = along_z(w, true);
+      const Vector ya[2] = {along_y<0>(w), along_y<2>(w)}, yb[2] = {along_y<4>(w), along_y<6>(w)};
       const float* corner = job.table + block.cell[0][i] * job.stride_x +
                             block.cell[1][i] * job.stride_y +
                             static_cast<std::ptrdiff_t>(4) * block.cell[2][i];
@@ -183,9 +241,9 @@ void sum(const GapJob& job, GapSums* sums) {
           Vector a = {}, ax = {};
           for (int x = 0; x < kStencil; ++x) {
             Vector sample;
-            load(row + x * job.stride_x, sample);
-            a += sample * wx[x];
-            ax += sample * wx[kStencil + x];
+            load_once(row + x * job.stride_x, sample);
+            a += sample * block.along_x[x][i];
+            ax += sample * block.along_x[kStencil + x][i];
           }
           g += a * ya[y];
           gx += ax * ya[y];
@@ -202,9 +260,12 @@ void sum(const GapJob& job, GapSums* sums) {
         gx *= zc;
         gy *= zc;
         const Vector gz = along * cosine;
-        r[0].part[p] += gz * uy - gy * uz;
-        r[1].part[p] += gx * uz - gz * ux;
-        r[2].part[p] += gy * ux - gx * uy;
+        r[0].part[p] += gz * uy;
+        r[1].part[p] += gx * uz;
+        r[2].part[p] += gy * ux;
+        r[0].part[p] -= gy * uz;
+        r[1].part[p] -= gz * ux;
+        r[2].part[p] -= gx * uy;
       }
     }
     // Now and then the lanes are emptied, so that single precision adds up no more than some
@@ -225,18 +286,18 @@ void sum(const GapJob& job, GapSums* sums) {
 }
 
 void probe(const GapJob& job, double* value, double* energy) {
+  const PiecesYz pieces(job.pieces);
   double v = 0.0, e = 0.0;
   for (std::ptrdiff_t first = 0; first < job.count; first += kModeBlock) {
     Block block;
     prepare(job, first, block);
+    weigh_x(job.pieces, block);
     float re[kModeBlock], im[kModeBlock];
     for (int i = 0; i < kModeBlock; ++i) {
-      Eight wx, wy, wz;
-      weights(job.pieces, block.z[0][i], wx);
-      weights(job.pieces, block.z[1][i], wy);
-      weights(job.pieces, block.z[2][i], wz);
-      const Lanes z0 = along_z(wz, false);
-      const Vector ya[2] = {along_y<0>(wy), along_y<2>(wy)};
+      Weights w;
+      weigh_yz(pieces.twice, block.z[1][i], block.z[2][i], w);
+      const Lanes z0 = along_z(w, false);
+      const Vector ya[2] = {along_y<0>(w), along_y<2>(w)};
       const float* corner = job.table + block.cell[0][i] * job.stride_x +
                             block.cell[1][i] * job.stride_y +
                             static_cast<std::ptrdiff_t>(4) * block.cell[2][i];
@@ -248,7 +309,7 @@ void probe(const GapJob& job, double* value, double* energy) {
           for (int x = 0; x < kStencil; ++x) {
             Vector sample;
             load(row + x * job.stride_x, sample);
-            a += sample * wx[x];
+            a += sample * block.along_x[x][i];
           }
           g.part[p] += a * ya[y];
         }

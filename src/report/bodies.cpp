@@ -16,52 +16,100 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestSearched = 256'000'000;  // bytes
+constexpr std::uintmax_t kLargestSearched = 1'000'000'000;  // bytes
+constexpr std::size_t kMostSearched = 100'000;              // files of a tree
 
-bool has_sum(const fs::path& path, const std::string& sha256) {
+// The file's SHA-256; empty for what is no file, too large, or not for us to read.
+std::string sum_of(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error) || error) return false;
+  if (!fs::is_regular_file(path, error) || error) return {};
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error || size > kLargestSearched) return false;
+  if (error || size > kLargestSearched) return {};
   try {
-    return sha256_of_file(path.string()) == sha256;
+    return sha256_of_file(path.string());
   } catch (const FileError&) {
-    return false;  // not for us to read
+    return {};
   }
 }
 
-// A file of the recorded contents in one of the directories; empty if there is none.
-std::string search_directories(const BodyRecord& body,
-                               const std::vector<std::string>& directories) {
+// Files of this ending in a directory, or in all below it; sorted, so that every file system gives
+// the same answer.
+template <class Iterator>
+std::vector<fs::path> files_of(const std::string& directory, const fs::path& ending) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  std::size_t seen = 0;
+  for (Iterator it(directory, fs::directory_options::skip_permission_denied, error), end;
+       !error && it != end && seen < kMostSearched; it.increment(error), ++seen)
+    if (it->path().extension() == ending) entries.push_back(it->path());
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+struct Found {
+  std::string path;   // empty: none
+  std::string other;  // a file of the body's name with other contents
+  std::string other_sum;
+};
+
+// A file of the recorded contents in the places.
+Found search(const BodyRecord& body, const SearchPlaces& places) {
   const fs::path name = fs::path(body.path).filename();
-  for (const std::string& directory : directories)
-    if (has_sum(fs::path(directory) / name, body.sha256))
-      return (fs::path(directory) / name).string();
-  for (const std::string& directory : directories) {
-    std::vector<fs::path> entries;
-    std::error_code error;
-    for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
-      if (it->path().extension() == name.extension()) entries.push_back(it->path());
-    std::sort(entries.begin(), entries.end());  // the same answer on every file system
-    for (const fs::path& entry : entries)
-      if (has_sum(entry, body.sha256)) return entry.string();
+  Found found;
+  const auto is_it = [&](const fs::path& path) {
+    const std::string sum = sum_of(path);
+    if (sum == body.sha256) found.path = path.string();
+    if (!sum.empty() && sum != body.sha256 && path.filename() == name && found.other.empty()) {
+      found.other = path.string();
+      found.other_sum = sum;
+    }
+    return sum == body.sha256;
+  };
+  for (const std::string& directory : places.directories)  // by its name first: no other is read
+    if (is_it(fs::path(directory) / name)) return found;
+  std::vector<std::vector<fs::path>> lists;
+  for (const std::string& directory : places.directories)
+    lists.push_back(files_of<fs::directory_iterator>(directory, name.extension()));
+  for (const std::string& tree : places.trees) {
+    lists.push_back(files_of<fs::recursive_directory_iterator>(tree, name.extension()));
+    std::stable_partition(lists.back().begin(), lists.back().end(),
+                          [&](const fs::path& path) { return path.filename() == name; });
   }
-  return {};
+  for (const std::vector<fs::path>& list : lists)
+    if (std::any_of(list.begin(), list.end(), is_it)) return found;
+  return found;
+}
+
+// What the search did, for the error.
+std::string search_text(const BodyRecord& body, const SearchPlaces& places, const Found& found) {
+  std::string where;
+  for (const std::string& directory : places.directories)
+    where += (where.empty() ? "" : ", ") + directory;
+  for (const std::string& tree : places.trees)
+    where += (where.empty() ? "" : ", ") + tree + " and below";
+  std::string text;
+  if (!where.empty()) text = "; no file of SHA-256 " + body.sha256 + " in " + where;
+  if (!found.other.empty())
+    text += "; " + found.other + " has the name but SHA-256 " + found.other_sum;
+  return text;
 }
 
 // Where the body's file is, with a notice if it moved.
 std::string find_body(const BodyRecord& body, const Provenance& provenance, const std::string& name,
-                      const LocateOptions& place, const std::vector<std::string>& directories,
+                      const LocateOptions& place, const SearchPlaces& places,
                       std::vector<std::string>& notices) {
   try {
     return locate_input(body, provenance, name, place);
-  } catch (const FileError&) {
+  } catch (const FileError& e) {
     if (!place.path.empty() || body.sha256.empty()) throw;
-    std::string found = search_directories(body, directories);
-    if (found.empty()) throw;
+    const Found found = search(body, places);
+    if (found.path.empty()) {
+      const std::string said = std::string(e.what()).substr(e.path().size() + 2);
+      throw FileError(e.path(), said + search_text(body, places, found));
+    }
     notices.push_back("The " + name + " input has moved since the run: " + body.path +
-                      " was found by its SHA-256 at " + found + ".");
-    return found;
+                      " was found by its SHA-256 at " + found.path + ".");
+    return found.path;
   }
 }
 
@@ -95,11 +143,22 @@ Molecule detail::heavy_atoms(const Molecule& molecule) {
 }
 
 ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places) {
+  for (const std::string& tree : places.trees)
+    if (std::error_code error; !fs::is_directory(tree, error))
+      throw InputError(tree + ": expected a directory to search");
   ReportBodies bodies;
   const auto read = [&](const BodyRecord& record, const std::string& name,
                         const LocateOptions& place) {
-    const std::string found =
-        find_body(record, run.provenance, name, place, places.directories, bodies.notices);
+    std::string found;
+    try {
+      found = find_body(record, run.provenance, name, place, places, bodies.notices);
+    } catch (const InputError& e) {
+      if (!places.allow_missing) throw;
+      bodies.notices.push_back("Without structures: " + std::string(e.what()) + ".");
+      ReportBody missing;
+      missing.stand_in = record.knots.points.topRows<3>();
+      return missing;
+    }
     return read_body(record, run.provenance, name, run.kind, found, place.force);
   };
   bodies.fixed = read(run.fixed, "fixed", places.fixed);
@@ -108,6 +167,7 @@ ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places) {
 }
 
 Eigen::Matrix3Xd report_points(const ReportBody& body) {
+  if (body.is_missing()) return body.stand_in;
   if (!body.is_mesh()) return atom_positions(detail::heavy_atoms(body.molecule));
   std::vector<char> used(static_cast<std::size_t>(body.mesh.vertices.cols()), 0);
   for (const int corner : body.mesh.triangles.reshaped())

@@ -4,12 +4,15 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/iostreams/device/back_inserter.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
 
 #include "mortise/core/errors.hpp"
 #include "report/page_data.hpp"
+#include "report/page_mesh.hpp"
 #include "report/page_resource.hpp"
 
 namespace mortise {
@@ -83,6 +86,25 @@ std::string fill(std::string_view text, const std::string& title, const std::str
   return page;
 }
 
+// Bodies as the page carries them: parts with at most about so many triangles.
+ReportBodies for_page(const ReportBodies& bodies, int most,
+                      std::array<detail::PagePart, 2>& parts) {
+  constexpr Eigen::Index kColoured = 16'000;  // triangles that colours need
+  ReportBodies shown = bodies;
+  ReportBody* const both[] = {&shown.fixed, &shown.moving};
+  for (std::size_t b = 0; b < 2; ++b) {
+    TriangleMesh& mesh = both[b]->mesh;
+    if (mesh.size() == 0) continue;
+    parts[b].triangles = mesh.size();
+    detail::SimplifiedMesh made = detail::simplified(mesh, most);
+    parts[b].deviation = made.deviation;
+    mesh = std::move(made.mesh);
+  }
+  if (shown.fixed.is_mesh())
+    shown.fixed.mesh = detail::cut_up(shown.fixed.mesh, std::min<Eigen::Index>(most, kColoured));
+  return shown;
+}
+
 }  // namespace
 
 bool report_page_available() noexcept { return !detail::page_template().empty(); }
@@ -93,21 +115,28 @@ std::string report_page(const Run& run, const ReportBodies& bodies, const PageOp
   if (options.frequency_poses < 1)
     throw InputError("report: frequency_poses must be >= 1, got " +
                      std::to_string(options.frequency_poses));
+  constexpr int kLeastTriangles = 100;
+  if (options.part_triangles < kLeastTriangles)
+    throw InputError("report: part_triangles must be >= 100, got " +
+                     std::to_string(options.part_triangles));
   check_run(run, "report");
+  std::array<detail::PagePart, 2> parts;
+  const ReportBodies shown = for_page(bodies, options.part_triangles, parts);
   constexpr double kTouch = 5.0;  // angstrom, as the contacts that the page shows
   double cutoff = kTouch;
-  if (bodies.fixed.is_mesh()) {
-    const Eigen::Matrix3Xd& v = bodies.fixed.mesh.vertices;
+  if (shown.fixed.is_mesh()) {
+    const Eigen::Matrix3Xd& v = shown.fixed.mesh.vertices;
     cutoff = 0.02 * (v.rowwise().maxCoeff() - v.rowwise().minCoeff()).norm();
   }
   const int counted =
       std::min<int>(options.frequency_poses, static_cast<int>(run.poses.poses.size()));
   const Eigen::VectorXd frequency =
-      touch_frequency(run, bodies, cutoff, options.frequency_poses, options.threads);
-  return fill(detail::page_template(),
-              escape_html(detail::body_name(run.fixed) + " + " + detail::body_name(run.moving) +
-                          " - Mortise"),
-              base64(gzip(detail::page_data(run, bodies, frequency, counted))));
+      touch_frequency(run, shown, cutoff, options.frequency_poses, options.threads);
+  return fill(
+      detail::page_template(),
+      escape_html(detail::body_name(run.fixed) + " + " + detail::body_name(run.moving) +
+                  " - Mortise"),
+      base64(gzip(detail::page_data(run, shown, parts, options.clusters, frequency, counted))));
 }
 
 }  // namespace mortise

@@ -79,7 +79,8 @@ Json structure_json(const Molecule& molecule) {
   return {{"format", "cif"}, {"text", format_mmcif_head("body") + format_mmcif_atoms(molecule)}};
 }
 
-Json body_json(const BodyRecord& record, const ReportBody& body, const char* role) {
+Json body_json(const BodyRecord& record, const ReportBody& body, const PagePart& part,
+               const char* role) {
   Json json = {{"name", body_name(record)},   {"role", role},
                {"path", record.path},         {"spec", record.spec},
                {"sha256", record.sha256},     {"found", body.found},
@@ -98,7 +99,11 @@ Json body_json(const BodyRecord& record, const ReportBody& body, const char* rol
     const Eigen::Matrix3Xf vertices = body.mesh.vertices.cast<float>();
     const Eigen::Matrix<std::uint32_t, 3, Eigen::Dynamic> triangles =
         body.mesh.triangles.cast<std::uint32_t>();
-    json["triangles"] = body.mesh.size();
+    json["triangles"] = part.triangles;
+    if (part.deviation > 0.0) {
+      json["shown_triangles"] = body.mesh.size();
+      json["deviation"] = part.deviation;
+    }
     json["mesh"] = {{"vertices", base64(vertices.data(), vertices.size())},
                     {"triangles", base64(triangles.data(), triangles.size())}};
   } else if (!body.molecule.atoms.empty()) {
@@ -151,12 +156,17 @@ std::string body_name(const BodyRecord& body) {
   return name.empty() ? std::string("unnamed") : name.string();
 }
 
-std::string page_data(const Run& run, const ReportBodies& bodies, const Eigen::VectorXd& frequency,
-                      int frequency_poses) {
+std::string page_data(const Run& run, const ReportBodies& bodies,
+                      const std::array<PagePart, 2>& parts, const ReportClusters& clusters,
+                      const Eigen::VectorXd& frequency, int frequency_poses) {
   const std::vector<Pose>& poses = run.poses.poses;
   Json head = head_json(run, bodies, frequency_poses);
-  head["bodies"] = {body_json(run.fixed, bodies.fixed, "fixed"),
-                    body_json(run.moving, bodies.moving, "moving")};
+  head["clusters"] = {{"measure", clusters.measure},
+                      {"radius", clusters.radius},
+                      {"min_size", clusters.min_size},
+                      {"count", clusters.sizes.size()}};
+  head["bodies"] = {body_json(run.fixed, bodies.fixed, parts[0], "fixed"),
+                    body_json(run.moving, bodies.moving, parts[1], "moving")};
   if (bodies.fixed.is_mesh()) {  // seen as the best pose asks for
     const RigidMotion best = poses.empty() ? RigidMotion{} : poses.front().moving_in_fixed;
     const Eigen::Vector3d away =

@@ -12,7 +12,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 FIXED, MOVING = "#4f7196", "#d9762b"
-CLASSES = [("incorrect", "#9aa4b1", 6), ("acceptable", "#c98a12", 14), ("medium", "#1f64b4", 16), ("high", "#1b7a43", 18)]
+# Classes differ in shape as well as in colour.
+CLASSES = [("incorrect", "#9aa4b1", 6, "o"), ("acceptable", "#c98a12", 16, "^"), ("medium", "#1f64b4", 15, "s"), ("high", "#1b7a43", 22, "D")]
+# What poses are measured by where the truth is known: column, its name, its scale, and below what a pose counts as found.
+MEASURES = [("interface_rmsd", "interface RMSD (\u00c5)", 1, 2.5, "2.5 \u00c5, a hit"),
+            ("placement_largest", "largest error (% of the part's diameter)", 100, 2.0, "2%, in place")]
 plt.rcParams.update({
     "figure.figsize": (4.2, 3.2), "figure.dpi": 100, "savefig.dpi": 300, "font.size": 9, "axes.spines.top": False,
     "axes.spines.right": False, "axes.edgecolor": "#4d5967", "axes.linewidth": 0.8, "savefig.bbox": "tight",
@@ -37,34 +41,38 @@ def scores(data, path):
     axes.annotate("rank 1", (score[0], 0.98), xycoords=("data", "axes fraction"), color=MOVING, fontsize=8,
                   ha="right", va="top", xytext=(-4, 0), textcoords="offset points")
     axes.set(xlabel="score", ylabel="poses", title=data["title"])
+    axes.yaxis.set_major_formatter("{x:,.0f}")
+    axes.yaxis.set_minor_formatter("")
     save(figure, path)
 
 
-def funnel(data, path):
+def funnel(data, measure, path):
     figure, axes = plt.subplots()
+    key, label, scale, _, _ = measure
     score = column(data["score"])
-    rmsd = column(data["metrics"]["interface_rmsd"])
+    rmsd = scale * column(data["metrics"][key])
     capri = column(data["metrics"].get("capri", [0] * len(score)))
-    for level, (name, colour, size) in enumerate(CLASSES):
+    for level, (name, colour, size, shape) in enumerate(CLASSES):
         of_class = capri == level
         if of_class.any():
-            axes.scatter(rmsd[of_class], score[of_class], s=size, c=colour, lw=0, alpha=0.8, label=name, rasterized=True)
-    axes.set(xlabel="interface RMSD (\u00c5)", ylabel="score", title=data["title"], xlim=(0, None))
+            axes.scatter(rmsd[of_class], score[of_class], s=size, c=colour, marker=shape, lw=0, alpha=0.8, label=name, rasterized=True)
+    axes.set(xlabel=label, ylabel="score", title=data["title"], xlim=(0, None))
     if "capri" in data["metrics"]:
         axes.legend(loc="upper right", handletextpad=0.1)
     save(figure, path)
 
 
-def best_of_top(data, path):
+def best_of_top(data, measure, path):
     figure, axes = plt.subplots()
-    rmsd = column(data["metrics"]["interface_rmsd"])
+    key, label, scale, found, note = measure
+    rmsd = scale * column(data["metrics"][key])
     rank = np.arange(1, len(rmsd) + 1)
     axes.step(rank, np.fmin.accumulate(rmsd), where="post", color=FIXED)
-    axes.axhline(2.5, color="#9aa4b1", lw=0.8, ls="--")
-    axes.annotate("2.5 \u00c5, a hit", (1.0, 2.5), xycoords=("axes fraction", "data"), ha="right", va="top", fontsize=8,
+    axes.axhline(found, color="#9aa4b1", lw=0.8, ls="--")
+    axes.annotate(note, (1.0, found), xycoords=("axes fraction", "data"), ha="right", va="top", fontsize=8,
                   color="#667282", xytext=(-4, -2), textcoords="offset points")
-    axes.set(xlabel="poses looked at", ylabel="best interface RMSD (\u00c5)", xscale="log", title=data["title"],
-             ylim=(0, 1.1 * max(2.5, np.nanmax(rmsd[:1]))))
+    axes.set(xlabel="poses looked at", ylabel=f"best {label}", xscale="log", title=data["title"],
+             ylim=(0, 1.1 * np.nanmax([found, *rmsd[:1]])))
     axes.xaxis.set_major_formatter("{x:,.0f}")
     if "dockq" in data["metrics"]:
         right = axes.twinx()
@@ -94,9 +102,10 @@ def run(data, directory):
     data.setdefault("metrics", {})
     directory = pathlib.Path(directory)
     scores(data, directory / "scores.png")
-    if "interface_rmsd" in data["metrics"]:
-        funnel(data, directory / "funnel.png")
-        best_of_top(data, directory / "best_of_top.png")
+    measure = next((m for m in MEASURES if m[0] in data["metrics"]), None)
+    if measure:
+        funnel(data, measure, directory / "funnel.png")
+        best_of_top(data, measure, directory / "best_of_top.png")
 
 
 if __name__ == "__main__":

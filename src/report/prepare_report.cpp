@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The run as the report shows it: poses of a checkpoint, clusters, sizes of clusters.
+// The run as the report shows it: poses of a checkpoint, clusters, interfaces.
 #include <algorithm>
 #include <numeric>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/report/interface_columns.hpp"
 #include "mortise/report/write_report.hpp"
-#include "mortise/search/cluster.hpp"
 
 namespace mortise {
 namespace {
@@ -44,42 +43,10 @@ PoseList provisional_poses(const Run& run) {
   return list;
 }
 
-bool has_clusters(const PoseList& list) {
-  std::vector<char> seen(list.poses.size(), 0);
-  for (const Pose& pose : list.poses) {
-    const auto cluster = static_cast<std::size_t>(pose.cluster);
-    if (pose.cluster < 0 || cluster >= seen.size()) continue;
-    if (seen[cluster] != 0) return true;
-    seen[cluster] = 1;
-  }
-  return false;
-}
-
-void cluster(Run& run, const Eigen::Matrix3Xd& points, double radius) {
-  std::vector<RigidMotion> motions;
-  for (const Pose& pose : run.poses.poses) motions.push_back(pose.moving_in_fixed);
-  const Clusters clusters = cluster_poses(motions, points, {.radius = radius});
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    run.poses.poses[i].cluster = clusters.cluster_of[i];
-}
-
-MetricColumn cluster_sizes(const PoseList& list) {
-  std::vector<double> sizes(list.poses.size() + 1, 0.0);
-  const auto slot = [&](const Pose& pose) {
-    return static_cast<std::size_t>(pose.cluster) < list.poses.size() && pose.cluster >= 0
-               ? static_cast<std::size_t>(pose.cluster)
-               : list.poses.size();
-  };
-  for (const Pose& pose : list.poses) sizes[slot(pose)] += 1.0;
-  MetricColumn column = {"cluster_size", {}};
-  for (const Pose& pose : list.poses)
-    column.values.push_back(slot(pose) == list.poses.size() ? 1.0 : sizes[slot(pose)]);
-  return column;
-}
-
 }  // namespace
 
-Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptions& options) {
+PreparedReport prepare_report(const Run& run, const ReportBodies& bodies,
+                              const ReportOptions& options) {
   check_run(run, "report");
   if (options.structures < 0)
     throw InputError("report: structures must be >= 0, got " + std::to_string(options.structures));
@@ -87,35 +54,29 @@ Run prepare_report(const Run& run, const ReportBodies& bodies, const ReportOptio
     throw InputError("report: interfaces must be >= 0, got " + std::to_string(options.interfaces));
   if (options.pictures < 0)
     throw InputError("report: pictures must be >= 0, got " + std::to_string(options.pictures));
-  if (options.cluster_radius && !(*options.cluster_radius >= 0.0))
-    throw InputError("report: cluster_radius must be >= 0, got " +
-                     std::to_string(*options.cluster_radius));
-  Run shown = run;
+  if (options.part_triangles < 100)
+    throw InputError("report: part_triangles must be >= 100, got " +
+                     std::to_string(options.part_triangles));
+  PreparedReport prepared = {run, {}};
+  Run& shown = prepared.run;
   if (shown.poses.poses.empty() && !shown.complete && shown.checkpoint) {
     shown.poses = provisional_poses(shown);
     shown.metrics.clear();
   }
-  if (shown.poses.poses.empty()) return shown;
-
-  double radius = options.cluster_radius.value_or(0.0);
-  const Eigen::Matrix3Xd points = report_points(bodies.moving);
-  if (!options.cluster_radius && !has_clusters(shown.poses) && points.cols() > 0) {
-    const Eigen::Vector3d center = points.rowwise().mean();
-    radius = 0.2 * (points.colwise() - center).colwise().norm().maxCoeff();
-  }
-  if (radius > 0.0 && points.cols() > 0) cluster(shown, points, radius);
-  std::erase_if(shown.metrics, [](const MetricColumn& m) { return m.name == "cluster_size"; });
-  shown.metrics.insert(shown.metrics.begin(), cluster_sizes(shown.poses));
+  prepared.clusters = cluster_run(shown, bodies, options.clusters);
+  if (shown.poses.poses.empty()) return prepared;
   const bool described =
       std::any_of(shown.metrics.begin(), shown.metrics.end(),
                   [](const MetricColumn& m) { return m.name == "interface_area"; });
-  if (options.interfaces > 0 && !described && !bodies.fixed.is_mesh())
+  const bool molecules =
+      !bodies.fixed.molecule.atoms.empty() && !bodies.moving.molecule.atoms.empty();
+  if (options.interfaces > 0 && !described && molecules)
     set_metric_columns(
         shown, interface_columns(MolecularInterface(bodies.fixed.molecule, bodies.moving.molecule,
                                                     {.threads = options.threads}),
                                  shown.poses, static_cast<std::size_t>(options.interfaces),
                                  options.threads));
-  return shown;
+  return prepared;
 }
 
 }  // namespace mortise

@@ -16,6 +16,7 @@
 #include "mortise/report/viewer_scripts.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/export.hpp"
+#include "report/page_mesh.hpp"
 
 namespace mortise {
 namespace {
@@ -97,6 +98,10 @@ class Writer {
   ReportFiles result_;
 };
 
+bool without_structures(const ReportBodies& bodies) {
+  return bodies.fixed.is_missing() || bodies.moving.is_missing();
+}
+
 // Pictures are extras: where a program for them is missing, the report says so and goes on.
 void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
                     const ReportOptions& options) {
@@ -109,11 +114,16 @@ void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
   } catch (const InputError& e) {
     writer.warn(std::string("no plots: ") + e.what());
   }
+  if (without_structures(bodies)) return;
   try {
+    constexpr Eigen::Index kDrawn = 200'000;  // triangles: a pixel or so each
+    ReportBodies drawn = bodies;
+    drawn.fixed.mesh = detail::simplified(bodies.fixed.mesh, kDrawn).mesh;
+    drawn.moving.mesh = detail::simplified(bodies.moving.mesh, kDrawn).mesh;
     const PictureOptions picture = {.threads = options.threads};
     for (std::size_t i = 0; i < count; ++i) {
       const std::string name = "poses/" + pose_file_name(i + 1, "png");
-      render_scene(povray_scene(bodies, run.poses.poses[i].moving_in_fixed, picture),
+      render_scene(povray_scene(drawn, run.poses.poses[i].moving_in_fixed, picture),
                    (writer.directory() / name).string(), picture);
       writer.note(name);
     }
@@ -125,6 +135,10 @@ void write_pictures(Writer& writer, const Run& run, const ReportBodies& bodies,
 void write_structures(Writer& writer, const Run& run, const ReportBodies& bodies, int structures) {
   const std::size_t count = std::min(static_cast<std::size_t>(structures), run.poses.poses.size());
   if (count == 0) return;
+  if (without_structures(bodies)) {
+    writer.warn("no structure files: an input file was not found");
+    return;
+  }
   make_directory(writer.directory() / "poses");
   const StructureText text = structure_texts(run, bodies, count);
   ViewerFiles files;
@@ -159,18 +173,24 @@ std::vector<std::string> notices_of(const Run& run, const Run& shown) {
 
 ReportFiles write_report(const Run& run, const ReportBodies& bodies, const std::string& directory,
                          const ReportOptions& options) {
-  const Run shown = prepare_report(run, bodies, options);
+  const PreparedReport prepared = prepare_report(run, bodies, options);
+  const Run& shown = prepared.run;
   ReportBodies told = bodies;
   const std::vector<std::string> notices = notices_of(run, shown);
   told.notices.insert(told.notices.begin(), notices.begin(), notices.end());
 
   Writer writer(directory);
   if (report_page_available())
-    writer.write("index.html", report_page(shown, told, {.threads = options.threads}));
+    writer.write("index.html", report_page(shown, told,
+                                           {.clusters = prepared.clusters,
+                                            .part_triangles = options.part_triangles,
+                                            .threads = options.threads}));
   else
     writer.warn("no index.html: this build was configured with MORTISE_REPORT=OFF");
   writer.write("poses.csv", csv_of(shown));
   writer.write("poses.json", json_of(shown));
+  writer.write("clusters.csv", clusters_csv(shown, prepared.clusters));
+  writer.write("clusters.json", clusters_json(shown, prepared.clusters));
   write_structures(writer, shown, bodies, options.structures);
   write_pictures(writer, shown, bodies, options);
   return writer.take();

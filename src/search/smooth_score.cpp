@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Score maps between grid points as smooth functions of the pose.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -30,8 +31,10 @@ PlacedPoints::PlacedPoints(const TypedPoints& typed, const Eigen::Matrix3Xd& sha
                      std::to_string(shape_weights.size()) + " for " +
                      std::to_string(shape_points.cols()));
   centre = shape_points.rowwise().mean();
-  gyration = std::sqrt((shape_points.colwise() - centre).squaredNorm() /
-                       static_cast<double>(shape_points.cols()));
+  // A body of one point turns too, by nothing: its atom's size keeps the step finite.
+  constexpr double kLeastGyration = 1.0;
+  gyration = std::max(kLeastGyration, std::sqrt((shape_points.colwise() - centre).squaredNorm() /
+                                                static_cast<double>(shape_points.cols())));
   const auto key = [](const auto& p) { return std::array<double, 3>{p[0], p[1], p[2]}; };
   std::map<std::array<double, 3>, Eigen::Index> shape_at;  // the knots that no typed point takes
   for (Eigen::Index i = 0; i < shape_points.cols(); ++i)

@@ -140,6 +140,21 @@ TEST_F(PartPrograms, AssembleFollowsAPathAndLetsGo) {
   EXPECT_LT(free["mate_energy"].get<double>(), 0.0);
 }
 
+// A round peg may turn in its hole: such rests are at home by the truth's symmetries alone.
+TEST_F(PartPrograms, AssembleCountsTheMatesSymmetries) {
+  for (const char* file : {"round_peg_hole_exact.stl", "round_peg_pin.stl", "mates.json"})
+    std::filesystem::copy_file(std::filesystem::path(MORTISE_SOURCE_DIR) / "parts" / file,
+                               scratch_ / file);
+  const std::string command =
+      "assemble round_peg_hole_exact.stl round_peg_pin.stl --mates mates.json --free 6 --seed 3 "
+      "--start-shift 0.05 --start-angle 20 --grid 32 --modes 1500 ";
+  const nlohmann::json turned = this->json(command);
+  EXPECT_GE(turned["home"].get<int>(), 5);
+  EXPECT_LE(turned["home_without_symmetries"].get<int>(), 2);
+  expect_user_error(command + "--goal goal.csv", "one of --path, --goal and --mates");
+  expect_user_error(command + "--pair nonesuch", "'nonesuch'");
+}
+
 TEST_F(PartPrograms, BadInputIsNamed) {
   std::ofstream(path("bad.csv")) << "qw,qx,qy,qz,tx,ty\n1,0,0,0,0,0\n";
   Outcome outcome = mortise("collide cube.obj cube.obj --poses bad.csv");
@@ -151,7 +166,7 @@ TEST_F(PartPrograms, BadInputIsNamed) {
   EXPECT_THAT(outcome.error, AllOf(HasSubstr("worse.csv:2"), HasSubstr("\"zero\"")));
   outcome = mortise("assemble cube.obj cube.obj");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.error, HasSubstr("--path or --goal"));
+  EXPECT_THAT(outcome.error, HasSubstr("one of --path, --goal and --mates"));
   const std::string free = "assemble cube.obj cube.obj --goal goal.csv --free 2 ";
   EXPECT_EQ(mortise(free + "--plot a.svg").code, 1);
   EXPECT_EQ(mortise(free + "--write-path a.csv").code, 1);

@@ -248,6 +248,55 @@ TEST(GapFunction, AbsoluteGradientsMeetDifferences) {
   }
 }
 
+TEST(GapFunction, HessianProductsMeetDifferencesOfTheGradient) {
+  for (const bool complex : {false, true}) {
+    const Pair pair(complex, 31);
+    const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 200});
+    std::mt19937_64 random(complex ? 8 : 9);
+    for (const double turning : {0.0, 1.0}) {
+      const RigidMotion pose = pair.pose(random);
+      const Eigen::Vector3d shift = Eigen::Vector3d(0.4, -0.7, 0.3),
+                            turn = turning * Eigen::Vector3d(-0.2, 0.15, 0.3);
+      const auto at = [&](double s) {
+        return gradient(gap.exact(nudged(pose, s * shift, s * turn)));
+      };
+      const double h = 2e-3;
+      const Eigen::Matrix<double, 6, 1> expected =
+          (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+      const GapProduct found = gap.exact_hessian_product(pose, shift, turn);
+      EXPECT_LT((found.translation - expected.head<3>()).norm(), 1e-6 * expected.head<3>().norm());
+      EXPECT_LT((found.rotation - expected.tail<3>()).norm(), 1e-6 * expected.tail<3>().norm());
+    }
+  }
+}
+
+TEST(GapFunction, FastHessianProductsAgreeWithTheExactOnes) {
+  const Pair pair(false, 5);
+  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 4096});
+  std::mt19937_64 random(6);
+  double slope_error = 0.0, slope_scale = 0.0, spin_error = 0.0, spin_scale = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const RigidMotion pose = pair.pose(random);
+    const Eigen::Vector3d shift = (i % 2) * Eigen::Vector3d(0.3, 0.1, -0.2),
+                          turn = (i % 3) * Eigen::Vector3d(0.1, 0.2, -0.1);
+    for (const int modes : {512, 4096}) {
+      const GapProduct fast = gap.hessian_product(pose, shift, turn, modes),
+                       exact = gap.exact_hessian_product(pose, shift, turn, modes);
+      slope_error = std::max(slope_error, (fast.translation - exact.translation).norm());
+      slope_scale = std::max(slope_scale, exact.translation.norm());
+      spin_error = std::max(spin_error, (fast.rotation - exact.rotation).norm());
+      spin_scale = std::max(spin_scale, exact.rotation.norm());
+    }
+  }
+  RecordProperty("slope_error", std::to_string(slope_error / slope_scale));
+  RecordProperty("spin_error", std::to_string(spin_error / spin_scale));
+  EXPECT_LT(slope_error, 5e-3 * slope_scale);
+  EXPECT_LT(spin_error, 2e-2 * spin_scale);
+  const GapProduct still =
+      gap.hessian_product({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(still.translation.norm() + still.rotation.norm(), 0.0);
+}
+
 TEST(GapFunction, BatchesAreTheSameForAnyThreads) {
   const Pair pair(true);
   const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 1000});

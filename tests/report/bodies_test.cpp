@@ -75,6 +75,44 @@ TEST_F(ReportInputs, ThatChangedOrAreGoneAreNamed) {
   expect_error("1hpv_receptor.pdb: the run's fixed input is not there");
 }
 
+TEST_F(ReportInputs, AreFoundBelowTheTreesToSearch) {
+  fs::create_directories(scratch_.path() / "archive/2024/deep");
+  fs::rename(scratch_ / "1hpv_receptor.pdb", scratch_ / "archive/2024/deep/renamed.pdb");
+  write_file_atomically(scratch_ / "archive/1hpv_receptor.pdb", "HEADER    ANOTHER\n");
+  places_.directories.push_back(scratch_ / "archive");  // not below: the error names the other one
+  const std::string other = sha256_of_file(scratch_ / "archive/1hpv_receptor.pdb");
+  expect_error("the run's fixed input is not there");
+  expect_error("no file of SHA-256 " + run_.fixed.sha256 + " in " + (scratch_ / "elsewhere"));
+  expect_error("archive/1hpv_receptor.pdb has the name but SHA-256 " + other);
+  places_.trees = {scratch_ / "archive"};
+  const ReportBodies bodies = read_report_bodies(run_, places_);
+  EXPECT_EQ(bodies.fixed.found, scratch_ / "archive/2024/deep/renamed.pdb");
+  places_.trees = {scratch_ / "nowhere"};
+  EXPECT_THROW((void)read_report_bodies(run_, places_), InputError);
+}
+
+TEST_F(ReportInputs, ThatChangedAreNamedWithBothSums) {
+  write_file_atomically(scratch_ / "1hpv_ligand.pdb", "HEADER    ANOTHER\n");
+  expect_error(run_.moving.sha256.substr(0, 12) + "..., found " +
+               sha256_of_file(scratch_ / "1hpv_ligand.pdb").substr(0, 12));
+}
+
+TEST_F(ReportInputs, MayBeMissingWhereTheUserSaysSo) {
+  fs::remove(scratch_ / "1hpv_ligand.pdb");
+  places_.allow_missing = true;
+  run_.moving.knots.points = Eigen::Matrix4Xd::Ones(4, 3);
+  run_.moving.knots.weights = Eigen::VectorXcd::Ones(3);
+  const ReportBodies bodies = read_report_bodies(run_, places_);
+  EXPECT_TRUE(bodies.moving.is_missing());
+  EXPECT_FALSE(bodies.fixed.is_missing());
+  EXPECT_EQ(report_points(bodies.moving).cols(), 3);
+  ASSERT_THAT(bodies.notices, SizeIs(1));
+  EXPECT_THAT(bodies.notices[0], HasSubstr("1hpv_ligand.pdb: the run's moving input is not there"));
+  write_file_atomically(scratch_ / "1hpv_ligand.pdb", "no molecule");
+  run_.moving.sha256 = sha256_of_file(scratch_ / "1hpv_ligand.pdb");
+  EXPECT_THROW((void)read_report_bodies(run_, places_), InputError) << "a file that cannot be read";
+}
+
 TEST_F(ReportInputs, OfPartsAreMeshes) {
   const ReportBodies made = plate_and_pin();
   write_file_atomically(scratch_ / "plate.stl", format_stl(made.fixed.mesh));

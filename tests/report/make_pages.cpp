@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "mortise/parts/ball_mesh.hpp"
 #include "mortise/report/write_report.hpp"
 #include "sample_report.hpp"
 
@@ -34,8 +35,10 @@ Molecule unusual(Molecule molecule) {
 }
 
 void write_all(const std::string& directory, bool many) {
-  const auto write = [&](const char* name, const Run& run, const ReportBodies& bodies) {
-    const ReportFiles files = write_report(run, bodies, directory + "/" + name, {.structures = 3});
+  const auto write = [&](const char* name, const Run& run, const ReportBodies& bodies,
+                         int triangles = 40'000) {
+    const ReportFiles files = write_report(run, bodies, directory + "/" + name,
+                                           {.structures = 3, .part_triangles = triangles});
     std::printf("%s: %zu files\n", name, files.files.size());
   };
   const ReportBodies molecules = protease();
@@ -48,6 +51,17 @@ void write_all(const std::string& directory, bool many) {
   write("zero", report_run(molecules, 0), molecules);
   const ReportBodies parts = plate_and_pin();
   write("parts", report_run(parts, 40), parts);
+
+  ReportBodies large = parts;
+  large.fixed.mesh = ball_mesh(Eigen::Vector4d(0.0, 0.0, 0.0, 10.0), 32);
+  large.moving.mesh = ball_mesh(Eigen::Vector4d(0.0, 0.0, 0.0, 3.0), 32);
+  write("large", report_run(large, 10), large, 4'000);
+
+  ReportBodies missing = molecules;
+  missing.moving = {};
+  missing.moving.stand_in = report_points(molecules.moving);
+  missing.notices.emplace_back("x.pdb: the run's moving input is not there.");
+  write("missing", report_run(molecules, 30), missing);
 
   Run bare = report_run(molecules, 30);
   bare.metrics.clear();

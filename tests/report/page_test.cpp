@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/parts/ball_mesh.hpp"
 #include "sample_report.hpp"
 
 namespace mortise::testing {
@@ -139,8 +140,39 @@ TEST_F(Page, PartsGoAsMeshes) {
   EXPECT_FLOAT_EQ(first, static_cast<float>(bodies.moving.mesh.vertices(0, 0)));
 }
 
+TEST_F(Page, SaysWhatBecameOfALargePart) {
+  ReportBodies bodies = plate_and_pin();
+  bodies.moving.mesh = ball_mesh(Eigen::Vector4d(0.0, 0.0, 0.0, 3.0), 16);  // 5,120 triangles
+  const auto body = [&](const PageOptions& options) {
+    return data_of(report_page(report_run(bodies, 2), bodies, options))["bodies"][1];
+  };
+  const nlohmann::json whole = body({});
+  EXPECT_EQ(whole["triangles"], 5'120);
+  EXPECT_FALSE(whole.contains("deviation"));
+  const nlohmann::json less = body({.part_triangles = 1'000});
+  EXPECT_EQ(less["triangles"], 5'120);
+  EXPECT_LE(less["shown_triangles"], 1'000);
+  EXPECT_GT(less["deviation"], 0.0);
+  EXPECT_LT(less["deviation"], 0.1);
+  EXPECT_EQ(from_base64(less["mesh"]["triangles"]).size(),
+            12u * less["shown_triangles"].get<int>());
+}
+
+TEST_F(Page, NamesTheRuleOfItsClusters) {
+  const ReportBodies bodies = protease();
+  mortise::Run run = report_run(bodies, 20);
+  const ReportClusters clusters =
+      cluster_run(run, bodies, {.measure = ClusterMeasure::kInterface, .radius = 4.0});
+  const nlohmann::json data = data_of(report_page(run, bodies, {.clusters = clusters}));
+  EXPECT_EQ(data["clusters"]["measure"], "interface");
+  EXPECT_EQ(data["clusters"]["radius"], 4.0);
+  EXPECT_EQ(data["clusters"]["count"], clusters.sizes.size());
+}
+
 TEST_F(Page, RefusesOptionsOutOfRange) {
   const ReportBodies bodies = protease();
+  EXPECT_THROW((void)report_page(report_run(bodies, 1), bodies, {.part_triangles = 99}),
+               InputError);
   EXPECT_THROW((void)report_page(report_run(bodies, 1), bodies, {.frequency_poses = 0}),
                InputError);
 }

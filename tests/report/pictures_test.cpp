@@ -111,6 +111,11 @@ TEST_F(Plots, OfScoresAndWithMetricsOfTheFunnelAndTheBestOfTheFirst) {
   EXPECT_THAT(draw_plots(run, scratch_.path().string()),
               ElementsAre("scores.png", "funnel.png", "best_of_top.png"));
   EXPECT_GT(png_size(scratch_ / "funnel.png").first, 800);
+  run.metrics = {{"placement_largest", std::vector<double>(60, 0.5)}};
+  run.metrics[0].values[0] = 0.001;
+  std::filesystem::create_directory(scratch_.path() / "parts");
+  EXPECT_THAT(draw_plots(run, scratch_ / "parts"),
+              ElementsAre("scores.png", "funnel.png", "best_of_top.png"));
   run.metrics.clear();
   std::filesystem::create_directory(scratch_.path() / "bare");
   EXPECT_THAT(draw_plots(run, scratch_ / "bare"), ElementsAre("scores.png"));

@@ -31,7 +31,8 @@ Run five_poses(const ReportBodies& bodies) {
 
 TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
   const ReportBodies bodies = protease();
-  const mortise::Run shown = prepare_report(five_poses(bodies), bodies, {.cluster_radius = 1.2});
+  const mortise::Run shown =
+      prepare_report(five_poses(bodies), bodies, {.clusters = {.radius = 1.2}}).run;
   EXPECT_THAT(sizes_of(shown), ElementsAre(3, 3, 1, 1, 3));
   EXPECT_EQ(shown.poses.poses[4].cluster, 0);
   EXPECT_EQ(shown.poses.poses[3].cluster, 2);
@@ -40,17 +41,17 @@ TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
 TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
   const ReportBodies bodies = protease();
   mortise::Run run = five_poses(bodies);
-  EXPECT_THAT(sizes_of(prepare_report(run, bodies, {.cluster_radius = 0.0})), Each(1.0));
+  EXPECT_THAT(sizes_of(prepare_report(run, bodies, {.clusters = {.radius = 0.0}}).run), Each(1.0));
   // All alone: clustered anew with a tenth of the diameter, about 5 angstrom.
-  EXPECT_THAT(sizes_of(prepare_report(run, bodies)), ElementsAre(4, 4, 4, 1, 4));
+  EXPECT_THAT(sizes_of(prepare_report(run, bodies).run), ElementsAre(4, 4, 4, 1, 4));
   run.poses.poses[3].cluster = 0;
-  EXPECT_THAT(sizes_of(prepare_report(run, bodies)), ElementsAre(2, 1, 1, 2, 1));
+  EXPECT_THAT(sizes_of(prepare_report(run, bodies).run), ElementsAre(2, 1, 1, 2, 1));
 }
 
 TEST(PrepareReport, ReplacesAnEarlierCount) {
   const ReportBodies bodies = protease();
-  const mortise::Run once = prepare_report(five_poses(bodies), bodies);
-  const mortise::Run twice = prepare_report(once, bodies);
+  const mortise::Run once = prepare_report(five_poses(bodies), bodies).run;
+  const mortise::Run twice = prepare_report(once, bodies).run;
   EXPECT_EQ(twice.metrics.size(), once.metrics.size());
 }
 
@@ -59,7 +60,7 @@ TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   mortise::Run run = report_run(bodies, 0);
   run.complete = false;
   run.checkpoint = sample_checkpoint(60);
-  const mortise::Run shown = prepare_report(run, bodies);
+  const mortise::Run shown = prepare_report(run, bodies).run;
   ASSERT_EQ(shown.poses.poses.size(), 60u);
   const Checkpoint& c = *run.checkpoint;
   for (std::size_t i = 0; i < 60; ++i) {  // its scores fall already
@@ -86,14 +87,14 @@ TEST(PrepareReport, DescribesTheBestInterfacesOnce) {
     return std::vector<double>();
   };
   mortise::Run run = report_run(bodies, 6);
-  EXPECT_THAT(column(prepare_report(run, bodies, {.interfaces = 0}), "buried_area"),
+  EXPECT_THAT(column(prepare_report(run, bodies, {.interfaces = 0}).run, "buried_area"),
               ::testing::IsEmpty());
-  const mortise::Run shown = prepare_report(run, bodies, {.interfaces = 2});
+  const mortise::Run shown = prepare_report(run, bodies, {.interfaces = 2}).run;
   const std::vector<double> areas = column(shown, "buried_area");
   ASSERT_EQ(areas.size(), 6u);
   EXPECT_GT(areas[0], 1000.0);  // the complex itself, square angstrom
   EXPECT_TRUE(std::isnan(areas[2]));
-  const mortise::Run again = prepare_report(shown, bodies, {.interfaces = 6});
+  const mortise::Run again = prepare_report(shown, bodies, {.interfaces = 6}).run;
   EXPECT_TRUE(std::isnan(column(again, "buried_area")[2])) << "kept as the run has them";
 }
 
@@ -101,8 +102,9 @@ TEST(PrepareReport, RefusesOptionsOutOfRange) {
   const ReportBodies bodies = protease();
   const mortise::Run run = report_run(bodies, 2);
   EXPECT_THROW((void)prepare_report(run, bodies, {.structures = -1}), InputError);
-  EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = -0.1}), InputError);
-  EXPECT_THROW((void)prepare_report(run, bodies, {.cluster_radius = std::nan("")}), InputError);
+  EXPECT_THROW((void)prepare_report(run, bodies, {.clusters = {.radius = -0.1}}), InputError);
+  EXPECT_THROW((void)prepare_report(run, bodies, {.clusters = {.radius = std::nan("")}}),
+               InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.pictures = -1}), InputError);
   EXPECT_THROW((void)prepare_report(run, bodies, {.interfaces = -1}), InputError);
 }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -29,8 +30,9 @@ TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
   const ReportFiles result = write_report(run, bodies, scratch / "a/b", {.structures = 2});
   for (const std::string& name : result.files)
     EXPECT_TRUE(std::filesystem::exists(scratch / ("a/b/" + name))) << name;
-  for (const char* name : {"poses.csv", "poses.json", "poses/fixed.pdb", "poses/pose_0001.pdb",
-                           "poses/pose_0002.pdb", "poses.pml", "poses.cxc"})
+  for (const char* name :
+       {"poses.csv", "poses.json", "clusters.csv", "clusters.json", "poses/fixed.pdb",
+        "poses/pose_0001.pdb", "poses/pose_0002.pdb", "poses.pml", "poses.cxc"})
     EXPECT_THAT(result.files, Contains(name));
   EXPECT_EQ(report_page_available(), result.files.front() == "index.html");
   EXPECT_EQ(report_page_available(), result.warnings.empty());
@@ -74,6 +76,17 @@ TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
   EXPECT_THAT(read_whole_file(scratch / "parts/poses.pml"), Not(HasSubstr("cartoon")));
 }
 
+TEST(WriteReport, GoesOnWithoutStructures) {
+  const ScratchDirectory scratch;
+  ReportBodies bodies = protease();
+  const mortise::Run run = report_run(bodies, 4);
+  bodies.moving = {};
+  const ReportFiles result = write_report(run, bodies, scratch / "bare");
+  EXPECT_THAT(result.files, Contains("clusters.csv"));
+  EXPECT_THAT(result.files, Not(Contains("poses.pml")));
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("no structure files")));
+}
+
 TEST(WriteReport, RefusesADirectoryThatCannotBe) {
   const ScratchDirectory scratch;
   write_file_atomically(scratch / "file", "here");
@@ -96,6 +109,38 @@ TEST(ViewerScripts, LoadEachFileOnceAndShowTheBestPose) {
   EXPECT_THAT(chimerax_script(alone), Not(HasSubstr("#2")));
 }
 
+// What Debian's pymol says of a report's script and of what is shown after it.
+std::string in_pymol(const std::string& directory) {
+  write_file_atomically(directory + "/check.pml",
+                        "print('shown', cmd.get_names('objects', enabled_only=1))\n"
+                        "print('all', len(cmd.get_names('objects')), cmd.count_atoms('interface') "
+                        "if 'interface' in cmd.get_names('all') else 0)\n");
+  const std::string command = "cd '" + directory +
+                              "' && PATH=/usr/bin:/bin HOME=. timeout 300 pymol -cq poses.pml "
+                              "check.pml > pymol.log 2>&1 < /dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(cert-env33-c): a test's own words
+  return read_whole_file(directory + "/pymol.log");
+}
+
+TEST(ViewerScripts, RunInPymol) {
+  if (!std::filesystem::exists("/usr/bin/pymol")) GTEST_SKIP() << "there is no /usr/bin/pymol";
+  const ScratchDirectory scratch;
+  const ReportBodies molecules = protease();
+  mortise::Run run = report_run(molecules, 3);
+  for (Pose& pose : run.poses.poses) pose.moving_in_fixed = {};
+  (void)write_report(run, molecules, scratch / "molecules", {.structures = 2, .interfaces = 0});
+  const std::string docked = in_pymol(scratch / "molecules");
+  EXPECT_THAT(docked, HasSubstr("shown ['fixed_body', 'pose_0001']"));
+  EXPECT_THAT(docked, Not(HasSubstr("Error")));
+  EXPECT_THAT(docked, Not(HasSubstr("all 3 0\n"))) << "the interface has atoms";
+  const ReportBodies parts = plate_and_pin();
+  (void)write_report(report_run(parts, 3), parts, scratch / "parts", {.structures = 2});
+  const std::string mated = in_pymol(scratch / "parts");
+  EXPECT_THAT(mated, HasSubstr("shown ['fixed_body', 'pose_0001']"));
+  EXPECT_THAT(mated, HasSubstr("all 3 0\n"));
+  EXPECT_THAT(mated, Not(HasSubstr("Error")));
+}
+
 class ReportCommand : public Program {};
 
 TEST_F(ReportCommand, ReportsADockingRun) {
@@ -112,7 +157,18 @@ TEST_F(ReportCommand, ReportsADockingRun) {
   std::filesystem::rename(path("1hpv_ligand.pdb"), path("moved/other.pdb"));
   EXPECT_THAT(must("report moved/run.h5").error,
               HasSubstr("was found by its SHA-256 at moved/other.pdb"));
-  std::filesystem::remove(path("moved/other.pdb"));
+  must("report moved/run.h5 --cluster interface --cluster-radius 4 --min-cluster-size 2");
+  EXPECT_EQ(
+      nlohmann::json::parse(read_whole_file(path("moved/run_report/clusters.json")))["measure"],
+      "interface");
+  expect_user_error("report moved/run.h5 --min-cluster-size 0", "must be >= 1, got 0");
+  expect_user_error("report moved/run.h5 --cluster-radius -2", "must be >= 0, got -2");
+  std::filesystem::create_directories(path("archive/deep"));
+  std::filesystem::rename(path("moved/other.pdb"), path("archive/deep/other.pdb"));
+  EXPECT_THAT(must("report moved/run.h5 --search archive").error,
+              HasSubstr("was found by its SHA-256 at archive/deep/other.pdb"));
+  std::filesystem::remove(path("archive/deep/other.pdb"));
+  EXPECT_THAT(must("report moved/run.h5 --allow-missing").error, HasSubstr("Without structures: "));
   expect_user_error("report moved/run.h5", "1hpv_ligand.pdb: the run's moving input is not there");
   expect_user_error("report 1hpv_receptor.pdb", "1hpv_receptor.pdb");
 }

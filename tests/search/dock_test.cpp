@@ -126,6 +126,12 @@ TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
   }
 }
 
+TEST(Docking, TakesALigandOfOneAtom) {
+  Docking docking(blob(300, 1), blob(1, 2), quick());
+  ASSERT_TRUE(docking.search().run());
+  EXPECT_FALSE(docking.rank().poses.empty());
+}
+
 TEST(DockOptions, PresetsAndTheirErrors) {
   EXPECT_EQ(dock_preset("thorough").rotations, 54000);
   EXPECT_GT(dock_preset("fast").search.spacing, dock_preset("default").search.spacing);

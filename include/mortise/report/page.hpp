@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mortise/report/bodies.hpp"
+#include "mortise/report/clusters.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise {
@@ -23,12 +24,16 @@ namespace mortise {
                                               double cutoff, int poses, int threads = 0);
 
 struct PageOptions {
-  int frequency_poses = 1000;  ///< best poses that the map on the surface counts; >= 1
-  int threads = 0;             ///< 0 = all cores; never changes the result
+  ReportClusters clusters = {};  ///< of the run's poses, as cluster_run() gave them
+  int frequency_poses = 1000;    ///< best poses that the map on the surface counts; >= 1
+  int part_triangles = 40'000;   ///< a larger part is simplified to about so many; >= 100
+  int threads = 0;               ///< 0 = all cores; never changes the result
 };
 
 /// The page as HTML text, about 0.6 MB and 30 bytes per number of the run.
 ///
+/// A part is in it with about PageOptions::part_triangles at most, and what that changed, measured,
+/// is written beside it; the fixed part's large triangles are cut up, for its colours.
 /// All names and paths from files are data inside it, never markup; it loads nothing from outside
 /// and its content security policy says so.
 /// @throws InputError without report_page_available(), or as check_run

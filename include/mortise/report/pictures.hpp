@@ -32,8 +32,9 @@ struct PictureOptions {
 void render_scene(const std::string& scene, const std::string& png_path,
                   const PictureOptions& options = {});
 
-/// Draws scores.png, and with metrics funnel.png and best_of_top.png (the best DockQ or interface
-/// RMSD among the first so many poses), with Python's matplotlib.
+/// Draws scores.png, and with interface_rmsd or placement_largest among the metrics funnel.png and
+/// best_of_top.png (the best of it, and DockQ, among the first so many poses), with Python's
+/// matplotlib.
 /// @return names of the files, relative to the directory
 /// @throws InputError if Python or matplotlib is missing or fails, with what it said
 [[nodiscard]] std::vector<std::string> draw_plots(const Run& run, const std::string& directory);

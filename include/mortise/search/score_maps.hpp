@@ -43,7 +43,7 @@ struct PlacedPoints {
                const Eigen::VectorXd& shape_weights);
 
   Eigen::Vector3d centre;   ///< mean of the shape's points, the body's input frame
-  double gyration;          ///< their rms distance from it, angstrom
+  double gyration;          ///< their rms distance from it, angstrom; 1 if less
   Eigen::VectorXd x, y, z;  ///< entries' places from the centre, angstrom
   Eigen::VectorXi types;    ///< -1 = none
   Eigen::VectorXd weights;  ///< of the shape term; 0 = none

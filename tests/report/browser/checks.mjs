@@ -115,6 +115,11 @@ export const checks = {
     await page.locator('#filter').selectOption('founders');
     const clusters = await cells(page, (await header(page, 'Cluster')).column);
     assert.equal(new Set(clusters).size, clusters.length, 'one pose of each cluster');
+    assert.match(await page.locator('#clusters').textContent(), /^\d[\d,]* clusters/);
+    await page.locator('#table-scroll tr.row').nth(0).click();
+    const mine = (await cells(page, (await header(page, 'Cluster')).column))[0];
+    await page.locator('#filter').selectOption('members');
+    assert.deepEqual([...new Set(await cells(page, (await header(page, 'Cluster')).column))], [mine], 'only the chosen cluster');
     await page.locator('#filter').selectOption('all');
     nothingWrong(report);
     await report.close();
@@ -216,6 +221,25 @@ export const checks = {
     assert.notDeepEqual(await view(page), solid, 'so does exploding');
     await page.locator('#home').click();
     await report.picture('parts_exploded.png');
+    await page.locator('#exploded').fill('0');
+    const map = page.locator('canvas[aria-label^="Faces in contact in pose 1:"]');
+    assert.ok(Number((await map.getAttribute('aria-label')).match(/: (\d+)/)[1]) > 0, 'the pin touches the plate');
+    await map.scrollIntoViewIfNeeded();
+    await page.locator('#colour').selectOption('contact');
+    await page.waitForTimeout(300);
+    assert.match(await page.locator('.legend').textContent(), /in contact/);
+    const box = await map.boundingBox();
+    let spot = null;  // a cell with a pair
+    for (let k = 0; k < 64 && !spot; ++k) {
+      const [x, y] = [box.x + box.width * (0.25 + 0.1 * (k % 8)), box.y + box.height * (0.05 + 0.09 * Math.floor(k / 8))];
+      await page.mouse.move(x, y);
+      if (/in contact/.test(await page.locator('#tip').textContent()) && await page.locator('#tip').isVisible()) spot = [x, y];
+    }
+    assert.ok(spot, 'a tip names the faces');
+    await page.mouse.click(...spot);
+    assert.match(await page.locator('.legend').textContent(), / on /, 'a click shows one pair of faces');
+    await page.locator('#viewer').scrollIntoViewIfNeeded();
+    await report.picture('parts_contact.png');
     nothingWrong(report);
     await report.close();
   },
@@ -238,6 +262,29 @@ export const checks = {
     nothingWrong(report);
     await report.picture('zero.png');
     await report.close();
+  },
+
+  async 'without structures: numbers and plots'(open) {
+    const report = await open('missing');
+    const { page } = report;
+    assert.match(await page.locator('#notices').textContent(), /the run's moving input is not there/);
+    assert.match(await page.locator('#stage-message').textContent(), /Without structures/);
+    assert.equal(await page.locator('#count').textContent(), '30 poses');
+    assert.ok(await page.locator('#plots canvas').count() >= 3);
+    await page.keyboard.press('j');
+    assert.equal(await title(page), 'Pose 2');
+    nothingWrong(report);
+    await report.picture('missing.png', { fullPage: true });
+    await report.close();
+  },
+
+  async 'a large part is simplified and says so'(open) {
+    const report = await open('large');
+    await showsSomething(report.page);
+    assert.match(await report.page.locator('#details').textContent(), /lies within/);
+    nothingWrong(report);
+    await report.close();
+    return `table after ${report.opened} ms, everything after ${report.drawn} ms`;
   },
 
   async 'names from files stay text'(open) {
@@ -268,9 +315,9 @@ export const checks = {
     assert.ok(report.opened < LARGE_OPEN_LIMIT, `opened in ${report.opened} ms`);
     assert.equal(await page.locator('#count').textContent(), '100,000 poses');
     const start = Date.now();
-    await (await header(page, 'contact')).button.click();
+    await (await header(page, 'Contact')).button.click();
     const sorted = Date.now() - start;
-    const contact = await header(page, 'contact');
+    const contact = await header(page, 'Contact');
     assert.deepEqual(await page.locator('#table-scroll th').nth(contact.column - 1).getAttribute('aria-sort'), 'ascending');
     await (await header(page, 'Rank')).button.click();
     await page.locator('#table-scroll').focus();

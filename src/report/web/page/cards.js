@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The four plots: scores, funnel, where the moving body sits, contacts of the chosen pose.
-import { css, ramp } from './colors.js';
-import { REFERENCE_COLUMNS, numberText, valueText } from './data.js';
+import { CONTACT_RAMP, OVERLAP, css, mix, ramp } from './colors.js';
+import { REFERENCE_COLUMNS, countText, lengthUnit, numberText, powerUnit, shortText, valueText } from './data.js';
 import { byId, choice, element, themeColor } from './dom.js';
 import { directions, fromHammer, hammer } from './geometry.js';
 import { axes, makeCard, padded } from './plots.js';
@@ -47,7 +47,7 @@ function scoreCard(run, state) {
     note: 'Poses by value, on a logarithmic scale; the mark is the chosen pose.',
     draw(context, width, height) {
       const most = Math.max(1, ...bins.map((b) => b.count));
-      plot = axes(context, width, height, { x: [bins[0].from, bins.at(-1).to], y: [0.7, most * 1.3], logY: true, xLabel: columnLabel(column), yLabel: 'poses' });
+      plot = axes(context, width, height, { x: [bins[0].from, bins.at(-1).to], y: [0.7, most * 1.3], logY: true, xLabel: columnLabel(column), yLabel: 'Poses' });
       context.fillStyle = themeColor('fixed');
       for (const b of bins) {
         if (!b.count) continue;
@@ -111,7 +111,7 @@ function funnelCard(run, state) {
     const context = layer.getContext('2d');
     context.scale(scale, scale);
     context.font = font;
-    plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'score' });
+    plot = axes(context, width, height, { x: usable.includes(column.key) ? [0, column.high * 1.03 || 1] : padded(column.low, column.high), y: padded(score.low, score.high), xLabel: columnLabel(column), yLabel: 'Score' });
     const classes = capri ? ['incorrect', 'acceptable', 'medium', 'high'] : [null];
     const size = run.count > 20000 ? 1.5 : run.count > 2000 ? 2.2 : 2.8;
     context.globalAlpha = run.count > 5000 ? 0.55 : 0.75;
@@ -124,8 +124,21 @@ function funnelCard(run, state) {
         const x = plot.toX(column.values[i]);
         const y = plot.toY(score.values[i]);
         if (!Number.isFinite(x)) continue;
-        if (size < 2) context.rect(x - 0.8, y - 0.8, 1.6, 1.6);
-        else {
+        // Classes differ in shape as well as in colour.
+        if (level === 1) {
+          context.moveTo(x, y - larger - 1);
+          context.lineTo(x + larger + 0.6, y + larger);
+          context.lineTo(x - larger - 0.6, y + larger);
+        } else if (level === 2) {
+          context.rect(x - larger, y - larger, 2 * larger, 2 * larger);
+        } else if (level === 3) {
+          context.moveTo(x, y - larger - 1.6);
+          context.lineTo(x + larger + 1.6, y);
+          context.lineTo(x, y + larger + 1.6);
+          context.lineTo(x - larger - 1.6, y);
+        } else if (size < 2) {
+          context.rect(x - 0.8, y - 0.8, 1.6, 1.6);
+        } else {
           context.moveTo(x + larger, y);
           context.arc(x, y, larger, 0, 2 * Math.PI);
         }
@@ -164,7 +177,7 @@ function funnelCard(run, state) {
   if (capri) {
     const present = ['high', 'medium', 'acceptable', 'incorrect'].filter((name, k) => capri.values.includes(3 - k));
     card.note(...present.map((name) => {
-      const dot = element('i', { class: 'swatch' });
+      const dot = element('i', { class: `swatch shape-${name}` });
       dot.style.background = `var(--${name})`;
       return element('span', { class: 'key' }, dot, name);
     }), element('span', {}, 'Click a point to see its pose.'));
@@ -336,8 +349,101 @@ function sphereCard(run, state) {
   return card;
 }
 
+// Faces of one part against faces of the other, those that touch or overlap: what residues are to molecules.
+function faceCard(run, state, viewer) {
+  const { faces, tolerance } = viewer.partContact;
+  const unit = lengthUnit(run);
+  const MOST = 12;  // faces on an axis that names have room for
+  let cells = [];
+  const area = (value) => `${shortText(value, 3)} ${powerUnit(unit, 2)}`.trimEnd();
+  const card = makeCard(byId('plots'), 'Faces in contact', {
+    note: '',
+    draw(context, width, height) {
+      const { pairs, contact, overlap } = viewer.faceContacts();
+      const shown = pairs.slice(0, 60);
+      const axis = (key, names) => [...new Set(shown.map((p) => p[key]))].sort((a, b) => a - b).map((face) => ({ face, name: names[face] }));
+      const rows = axis('fixed', faces[0].names);
+      const columns = axis('moving', faces[1].names);
+      const left = 66;
+      const bottom = height - 52;
+      const right = width - 8;
+      const top = 6;
+      const w = (right - left) / Math.max(1, columns.length);
+      const h = (bottom - top) / Math.max(1, rows.length);
+      const most = Math.max(...shown.map((p) => p.contact), 1e-300);
+      cells = shown.map((p) => ({ ...p, x: left + w * columns.findIndex((c) => c.face === p.moving), y: top + h * rows.findIndex((r) => r.face === p.fixed), w, h }));
+      context.fillStyle = themeColor('sunken');
+      context.fillRect(left, top, right - left, bottom - top);
+      for (const c of cells) {
+        context.fillStyle = css(mix(CONTACT_RAMP(), Math.sqrt(c.contact / most)));
+        context.fillRect(c.x + 0.5, c.y + 0.5, c.w - 1, c.h - 1);
+        if (c.overlap > 0) {  // a corner in the colour of overlap
+          const side = Math.min(10, 0.5 * c.w, 0.6 * c.h);
+          context.fillStyle = css(OVERLAP);
+          context.beginPath();
+          context.moveTo(c.x + c.w - 1, c.y + 1);
+          context.lineTo(c.x + c.w - 1 - side, c.y + 1);
+          context.lineTo(c.x + c.w - 1, c.y + 1 + side);
+          context.fill();
+        }
+      }
+      context.strokeStyle = themeColor('line');
+      context.strokeRect(left + 0.5, top + 0.5, right - left - 1, bottom - top - 1);
+      context.fillStyle = themeColor('ink-3');
+      context.textBaseline = 'middle';
+      context.textAlign = 'right';
+      const every = (list) => Math.ceil(list.length / MOST);
+      rows.forEach((r, k) => { if (k % every(rows) === 0) context.fillText(r.name, left - 5, top + h * (k + 0.5)); });
+      columns.forEach((c, k) => {
+        if (k % every(columns)) return;
+        const x = left + w * (k + 0.5);
+        if (w > 58) {
+          context.textAlign = 'center';
+          context.fillText(c.name, x, bottom + 10);
+          return;
+        }
+        context.save();
+        context.translate(x, bottom + 5);
+        context.rotate(-0.6);
+        context.textAlign = 'right';
+        context.fillText(c.name, 0, 4);
+        context.restore();
+      });
+      context.fillStyle = themeColor('ink-2');
+      context.textAlign = 'center';
+      context.textBaseline = 'bottom';
+      context.fillText(fitting(run.bodies[1].name, 30), (left + right) / 2, height);
+      context.save();
+      context.translate(7, (top + bottom) / 2);
+      context.rotate(-Math.PI / 2);
+      context.textBaseline = 'middle';
+      context.fillText(fitting(run.bodies[0].name, 30), 0, 0);
+      context.restore();
+      card.note(...(pairs.length ? [
+        swatch(css(mix(CONTACT_RAMP(), 1)), `in contact: ${area(contact)}`),
+        ...(overlap > 0 ? [swatch(css(OVERLAP), `overlapping: ${area(overlap)}`)] : []),
+        element('span', {}, `${countText(pairs.length, 'pair')} of faces within ${shortText(tolerance, 2)} ${unit}`.trimEnd() + ', numbered by size; click one to see it.'),
+      ] : ['No face within reach of the other part.']));
+    },
+    hover: (x, y) => {
+      const c = cells.find((d) => x >= d.x && x <= d.x + d.w && y >= d.y && y <= d.y + d.h);
+      return c ? `${faces[0].names[c.fixed]} \u2013 ${faces[1].names[c.moving]}\n${area(c.contact)} in contact${c.overlap > 0 ? `\n${area(c.overlap)} overlapping` : ''}${c.depth > 0 ? `\nat most ${shortText(c.depth, 2)} ${unit} deep`.trimEnd() : ''}` : '';
+    },
+    pick: (x, y) => viewer.showPair(cells.find((d) => x >= d.x && x <= d.x + d.w && y >= d.y && y <= d.y + d.h) ?? null),
+    describe: () => `Faces in contact in pose ${state.pose + 1}: ${countText(viewer.faceContacts().pairs.length, 'pair')}`,
+  });
+  return card;
+}
+
+const swatch = (colour, text) => {
+  const dot = element('i', { class: 'swatch' });
+  dot.style.background = colour;
+  return element('span', { class: 'key' }, dot, text);
+};
+
 function contactCard(run, state, viewer) {
-  if (!viewer || viewer.isMesh) return { repaint() {} };
+  if (!viewer) return { repaint() {} };
+  if (viewer.isMesh) return faceCard(run, state, viewer);
   const { fixed, moving } = viewer;
   let plot = null;
   let hovered = [];

@@ -17,10 +17,19 @@ export function ramp(share, dark = isDark()) {
   return stops[k].map((low, c) => Math.round(low + (at - k) * (stops[k + 1][c] - low)));
 }
 
+const lerp = (a, b, share) => a.map((low, c) => Math.round(low + share * (b[c] - low)));
+
+/** Surfaces in contact, from little to most, and in the 3D view from near to touching: teal, told from magenta by all. */
+export const CONTACT_RAMP = () => (isDark() ? [[38, 62, 66], [72, 209, 204]] : [[214, 236, 236], [11, 114, 133]]);
+export const CONTACT_3D = [[157, 187, 224], [0, 168, 160]];
+export const OVERLAP = [226, 60, 142];
+
+export const mix = ([low, high], share) => lerp(low, high, Math.max(0, Math.min(1, share)));
+
 export const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 export const hex = ([r, g, b]) => (r << 16) | (g << 8) | b;
 
 export const rampCss = (dark) => `linear-gradient(90deg, ${[0, 0.25, 0.5, 0.75, 1].map((s) => css(ramp(s, dark))).join(', ')})`;
 
 /** The bodies in the 3D view; the same in both themes, so that pictures match. Meshes are lit less than cartoons. */
-export const BODY = { fixed: 0x7f9fc4, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12, fixedPart: 0x9dbbe0, movingPart: 0xf29a4a };
+export const BODY = { fixed: 0x7f9fc4, moving: 0xe08a3f, fixedDeep: 0x47688f, movingDeep: 0xb85c12, fixedPart: 0x9dbbe0, movingPart: 0xf29a4a, wayOut: 0x2b8a3e };

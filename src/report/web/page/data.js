@@ -19,12 +19,15 @@ const KNOWN = {
   fnonnat: { label: 'fnonnat', digits: 2, good: 'low', about: 'Fraction of the pose\u2019s residue contacts that the reference has not' },
   dockq: { label: 'DockQ', digits: 3, good: 'high', about: 'DockQ, from 0 to 1' },
   capri: { label: 'CAPRI', digits: 0, good: 'high', classes: ['incorrect', 'acceptable', 'medium', 'high'], about: 'CAPRI quality class' },
-  contact_area: { label: 'Contact area', digits: 2, good: 'high', about: 'Area over which the parts touch' },
-  penetration_volume: { label: 'Overlap volume', digits: 3, good: 'low', about: 'Volume that both parts would fill' },
-  pull_blocked: { label: 'Held', digits: 2, good: 'low', about: 'Share of the contact that stands against pulling the part out: 0 = it comes free' },
-  placement_largest: { label: 'Error, largest', digits: 3, good: 'low', about: 'Largest distance of a point of the part from its true place' },
-  placement_rms: { label: 'Error, RMS', digits: 3, good: 'low', about: 'RMS distance of the part\u2019s points from their true places' },
-  penetration_depth: { label: 'Overlap depth', digits: 3, good: 'low', about: 'How deep one part reaches into the other' },
+  shape: { label: 'Shape', score: true, about: 'Shape complementarity, a part of the score' },
+  contact: { label: 'Contact', score: true, about: 'Contacts between the bodies, a part of the score' },
+  penetration: { label: 'Penetration', score: true, about: 'What overlaps, a part of the score' },
+  contact_area: { label: 'Contact area', power: 2, good: 'high', about: 'Area over which the parts touch' },
+  penetration_volume: { label: 'Overlap', power: 3, good: 'low', about: 'Volume that both parts would fill' },
+  penetration_depth: { label: 'Depth', power: 1, good: 'low', about: 'How deep one part reaches into the other at most' },
+  pull_blocked: { label: 'Held', unit: '%', scale: 100, digits: 0, good: 'low', about: 'Share of the contact that stands against pulling the part out: 0 = it comes free' },
+  placement_largest: { label: 'Error', unit: '%', scale: 100, digits: 2, good: 'low', about: 'Largest distance of a point of the part from its true place, in percent of the part\u2019s diameter' },
+  placement_rms: { label: 'RMS error', unit: '%', scale: 100, digits: 2, good: 'low', about: 'RMS distance of the part\u2019s points from their true places, in percent of the part\u2019s diameter' },
 };
 
 /** Columns measured against a reference, of which one makes the funnel's axis. */
@@ -42,9 +45,18 @@ async function unpack(text) {
   return JSON.parse(await new Response(stream).text());
 }
 
-function column(key, values, sharedDigits) {
+const SUPERSCRIPT = ['', '', '\u00b2', '\u00b3'];
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** The run's unit of length, as it is written; 'units' where the files name none. */
+export const lengthUnit = (run) => (run.bodies[0].unit === 'angstrom' ? '\u00c5' : run.bodies[0].unit || '');
+
+export const powerUnit = (unit, power) => (unit ? unit + SUPERSCRIPT[power] : '');
+
+function column(key, values, sharedDigits, length) {
   const known = KNOWN[key] ?? {};
-  const numbers = Float64Array.from(values, (value) => (value === null ? NaN : value));
+  const scale = known.scale ?? 1;
+  const numbers = Float64Array.from(values, (value) => (value === null ? NaN : scale * value));
   let low = Infinity;
   let high = -Infinity;
   let whole = true;
@@ -54,10 +66,13 @@ function column(key, values, sharedDigits) {
     if (value > high) high = value;
     if (whole && value !== Math.round(value)) whole = false;
   }
-  // Scores and channels share one scale, so that they can be compared digit by digit.
-  const digits = KNOWN[key] && key !== 'score' ? known.digits : sharedDigits ?? (whole ? 0 : 3);
-  return { key, label: known.label ?? key.replaceAll('_', ' '), unit: known.unit, about: known.about ?? key.replaceAll('_', ' '),
-           good: known.good, classes: known.classes, digits, values: numbers, low, high };
+  // Scores and channels share one scale, so that they can be compared digit by digit. What has the files' unit of
+  // length, which may be any, shows four digits of the largest value.
+  const largest = Math.max(Math.abs(low), Math.abs(high));
+  const four = largest > 0 && largest < Infinity ? Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(largest)))) : 0;
+  const digits = known.power ? four : KNOWN[key] && !known.score && key !== 'score' ? known.digits : sharedDigits ?? (whole ? 0 : 3);
+  return { key, label: known.label ?? capital(key.replaceAll('_', ' ')), unit: known.power ? powerUnit(length, known.power) : known.unit,
+           about: known.about ?? key.replaceAll('_', ' '), good: known.good, classes: known.classes, digits, values: numbers, low, high };
 }
 
 /** Reads the run out of the page. */
@@ -73,7 +88,7 @@ export async function loadRun() {
   const largest = run.columns.filter((c) => c.group === 'score').reduce((most, c) => c.values.reduce((a, v) => Math.max(a, Math.abs(v ?? 0)), most), 0);
   const scoreDigits = largest >= 1000 ? 0 : largest >= 100 ? 1 : largest >= 10 ? 2 : 3;
   run.columns = [column('rank', ranks), ...run.columns.map((c) => ({
-    ...column(c.key, c.values, c.group === 'score' ? scoreDigits : undefined), group: c.group }))];
+    ...column(c.key, c.values, c.group === 'score' ? scoreDigits : undefined, lengthUnit(run)), group: c.group }))];
   // The way out of a mated part is one direction, not three columns; the exploded view follows it.
   const pull = ['pull_x', 'pull_y', 'pull_z'].map((key) => run.columns.find((c) => c.key === key)?.values);
   if (pull.every(Boolean)) {

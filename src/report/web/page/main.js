@@ -49,8 +49,8 @@ function showHead(run) {
 
 function showPose(run, pose) {
   byId('viewer-title').textContent = `Pose ${pose + 1}`;
-  const chips = run.columns.filter((c) => ['score', 'interface_rmsd', 'ligand_rmsd', 'dockq', 'sc', 'contact_area', 'placement_largest'].includes(c.key))
-    .map((c) => element('span', {}, `${c.label} `, element('b', {}, valueText(c, pose))));
+  const chips = run.columns.filter((c) => ['score', 'interface_rmsd', 'ligand_rmsd', 'dockq', 'sc', 'contact_area', 'penetration_depth', 'placement_largest'].includes(c.key))
+    .map((c) => element('span', {}, `${c.label} `, element('b', {}, valueText(c, pose)), c.unit && valueText(c, pose) !== '\u2013' ? ` ${c.unit}` : ''));
   const { capri } = run.column;
   if (capri && capri.values[pose] >= 0) chips.push(element('span', { class: `class class-${valueText(capri, pose)}` }, valueText(capri, pose)));
   byId('pose-chips').replaceChildren(...chips);

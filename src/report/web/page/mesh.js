@@ -5,10 +5,11 @@ import { moved } from './geometry.js';
 
 const CREASE = Math.cos((30 * Math.PI) / 180);  // edges that bend more are drawn
 const LIFT = 6e-3;  // of the part's radius
+const PATCH_LIFT = 1.5e-3;  // of the part's radius
 const EDGES_PER_SHAPE = 400;  // the viewer goes through all lines of a shape for each line added
 
-/** Corners with normals of their own where the surface bends, and the lines along such edges. */
-function prepare({ mesh: { vertices, triangles }, radius }) {
+/** Corners with normals of their own where the surface bends, and the lines along such edges; in simplified parts those between faces. */
+function prepare({ mesh: { vertices, triangles }, radius, deviation }, faceOf) {
   const faces = triangles.length / 3;
   const normals = new Float32Array(3 * faces);
   const areas = new Float32Array(3 * faces);  // normals by twice the area
@@ -52,7 +53,7 @@ function prepare({ mesh: { vertices, triangles }, radius }) {
     }
   const ends = [];
   for (const [key, shared] of sides) {
-    if (shared.length === 2 && dot(shared[0], shared[1]) >= CREASE) continue;
+    if (shared.length === 2 && (dot(shared[0], shared[1]) >= CREASE || (deviation && faceOf[shared[0]] === faceOf[shared[1]]))) continue;
     // A hair outside of the surface, or the faces would hide half of the line.
     const lift = [0, 1, 2].map((k) => LIFT * radius * shared.reduce((sum, f) => sum + normals[3 * f + k], 0) / shared.length);
     for (const v of [Math.floor(key / count), key % count]) for (let k = 0; k < 3; ++k) ends.push(vertices[3 * v + k] + lift[k]);
@@ -66,19 +67,42 @@ const xyz = (numbers) => {
   return list;
 };
 
-export function showMesh(viewer, fixedBody, movingBody) {
-  const fixed = prepare(fixedBody);
-  const moving = prepare(movingBody);
+export function showMesh(viewer, fixedBody, movingBody, faces) {
+  const fixed = prepare(fixedBody, faces[0].of);
+  const moving = prepare(movingBody, faces[1].of);
   const still = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
   let shapes = [];
   let drawnFixed = '';
   let fixedShapes = [];
 
+  /** Some of the fixed part's triangles in colours of their own, a hair outside of its surface on both sides. */
+  function addPatch({ triangles, colour }) {
+    const { points, normals } = fixed;
+    const lift = PATCH_LIFT * fixedBody.radius;
+    const vertexArr = [];
+    const normalArr = [];
+    const color = [];
+    for (const t of triangles) {
+      const [r, g, b] = colour(t);
+      for (const side of [1, -1])
+        for (const k of side > 0 ? [0, 1, 2] : [0, 2, 1]) {
+          const c = 9 * t + 3 * k;
+          vertexArr.push({ x: points[c] + side * lift * normals[c], y: points[c + 1] + side * lift * normals[c + 1], z: points[c + 2] + side * lift * normals[c + 2] });
+          normalArr.push({ x: side * normals[c], y: side * normals[c + 1], z: side * normals[c + 2] });
+          color.push({ r: r / 255, g: g / 255, b: b / 255 });
+        }
+    }
+    return viewer.addCustom({ vertexArr, normalArr, faceArr: Array.from(vertexArr, (_, i) => i), color, opacity: 1 });
+  }
+
   function add(part, m, color, edgeColor, opacity, colours) {
     const turned = moved([...m.slice(0, 9), 0, 0, 0], part.normals);
     const count = part.points.length / 3;
     const spec = { vertexArr: xyz(moved(m, part.points)), normalArr: xyz(turned), faceArr: Array.from({ length: count }, (_, i) => i), opacity };
-    if (colours) spec.color = Array.from(part.corners, (v) => ({ r: colours[v][0] / 255, g: colours[v][1] / 255, b: colours[v][2] / 255 }));
+    if (colours) spec.color = Array.from(part.corners, (v) => {
+      const [r, g, b] = colours(v);
+      return { r: r / 255, g: g / 255, b: b / 255 };
+    });
     else spec.color = color;
     const made = [viewer.addCustom(spec)];
     const ends = moved(m, part.ends);
@@ -92,10 +116,16 @@ export function showMesh(viewer, fixedBody, movingBody) {
   }
 
   return {
-    draw(m, { opacity, colours }) {
+    /**
+     * colours(vertex) of the fixed part, null = plain; patch: { triangles, colour(triangle) } of it in front of the
+     * see-through parts; way: an arrow's { from, to }; the last three may be null.
+     */
+    draw(m, { opacity, colours, patch, way }) {
       for (const shape of shapes) viewer.removeShape(shape);
-      shapes = m ? add(moving, m, BODY.movingPart, 0x301603, 1, null) : [];
-      const state = `${opacity} ${colours ? colours.join() : ''}`;
+      shapes = m ? add(moving, m, BODY.movingPart, 0x301603, patch ? 0.3 : 1, null) : [];
+      if (patch?.triangles.length) shapes.push(addPatch(patch));
+      if (way) shapes.push(viewer.addArrow({ start: xyz(way.from)[0], end: xyz(way.to)[0], radius: 0.035 * movingBody.radius, radiusRatio: 2.2, mid: 0.72, color: BODY.wayOut }));
+      const state = `${opacity} ${colours ? 'coloured' : 'plain'}`;
       if (state === drawnFixed) return;
       drawnFixed = state;
       for (const shape of fixedShapes) viewer.removeShape(shape);

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ranked table: sorted by any column, filtered, and drawn only where it can be seen.
-import { countText, valueText } from './data.js';
+import { countText, lengthUnit, shortText, valueText } from './data.js';
 import { byId, choice, element } from './dom.js';
 
 const ROW_HEIGHT = 28;
 const SPARE_ROWS = 8;
+
+/** The best-ranked pose of each cluster. */
+function representatives(run) {
+  const first = new Map();
+  run.column.cluster?.values.forEach((c, i) => {
+    if (c >= 0 && !first.has(c)) first.set(c, i);
+  });
+  return new Set(first.values());
+}
+
+/** "44 clusters of \u2265 3, i-RMSD < 3 \u00c5". */
+function clusterText(run) {
+  const { measure, radius, min_size: least, count } = run.clusters;
+  if (!count && least <= 1) return '';
+  const what = measure === 'interface' ? 'i-RMSD' : run.kind === 'mate' ? 'RMSD' : 'L-RMSD';
+  const rule = measure === 'run' ? '' : `, ${what} < ${shortText(radius, 2)} ${lengthUnit(run)}`.trimEnd();
+  return `${countText(count, 'cluster')}${least > 1 ? ` of \u2265 ${least}` : ''}${rule}`;
+}
 
 /** Filters that make sense for this run: name, label, and which poses stay. */
 function filters(run) {
@@ -18,7 +36,8 @@ function filters(run) {
       first.add(c);
       founders[i] = 1;
     });
-    list.push(['founders', 'best of each cluster', (i) => founders[i] === 1]);
+    list.push(['founders', 'cluster representatives', (i) => founders[i] === 1]);
+    list.push(['members', 'cluster of the chosen pose', (i, chosen) => i === chosen || (cluster.values[i] >= 0 && cluster.values[i] === cluster.values[chosen])]);
   }
   if (capri) {
     list.push(['acceptable', 'acceptable or better', (i) => capri.values[i] >= 1]);
@@ -29,6 +48,9 @@ function filters(run) {
 
 export function makeTable(run, select) {
   const scroller = byId('table-scroll');
+  const founders = representatives(run);
+  byId('clusters').textContent = clusterText(run);
+  byId('clusters').title = `${clusterText(run)}\n` + 'Clusters are numbered by the rank of their representative, their best-ranked pose, which stands in bold.';
   const choices = filters(run);
   let filter = choices[0];
   let sorted = { column: run.columns[0], descending: false };
@@ -60,7 +82,7 @@ export function makeTable(run, select) {
   function arrange() {
     const { column, descending } = sorted;
     const kept = [];
-    for (let i = 0; i < run.count; ++i) if (filter[2](i)) kept.push(i);
+    for (let i = 0; i < run.count; ++i) if (filter[2](i, selected)) kept.push(i);
     const sign = descending ? -1 : 1;
     const values = column.values;
     // Absent values come last either way; ties keep the ranking.
@@ -93,6 +115,10 @@ export function makeTable(run, select) {
     if (text === '\u2013') return element('td', { class: 'absent' }, text);
     if (c.classes) return element('td', {}, element('span', { class: `class class-${text}` }, text));
     const td = element('td', {}, text);
+    if (c.key === 'cluster' && founders.has(pose)) {
+      td.className = 'founder';
+      td.title = 'Representative: the best-ranked pose of its cluster';
+    }
     if (c.key === 'score' && c.high > c.low) {
       td.className = 'bar';
       td.style.setProperty('--share', `${(100 * (c.values[pose] - Math.min(0, c.low))) / (c.high - Math.min(0, c.low))}%`);
@@ -139,8 +165,16 @@ export function makeTable(run, select) {
     select(order[from < 0 ? 0 : Math.max(0, Math.min(order.length - 1, from + rows))]);
   }
 
-  scroller.addEventListener('scroll', draw, { passive: true });
-  new ResizeObserver(draw).observe(scroller);
+  // A shade at the right edge says that there are more columns.
+  const edge = () => scroller.parentElement.classList.toggle('more', scroller.scrollLeft + scroller.clientWidth < scroller.scrollWidth - 4);
+  scroller.addEventListener('scroll', () => {
+    draw();
+    edge();
+  }, { passive: true });
+  new ResizeObserver(() => {
+    draw();
+    edge();
+  }).observe(scroller);
   body.addEventListener('click', (event) => {
     const row = event.target.closest('tr.row');
     if (row) select(Number(row.dataset.pose));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The 3D view of one pose: molecules as surface and cartoon, parts as meshes.
-import { BODY, hex, isDark, ramp, rampCss } from './colors.js';
+import { BODY, CONTACT_3D, OVERLAP, css, hex, isDark, mix, ramp, rampCss } from './colors.js';
 import { byId, checkbox, choice, element, slider, themeColor } from './dom.js';
 import { Cells, motion, moved } from './geometry.js';
 import { showMesh } from './mesh.js';
+import { makePartContact } from './part_contact.js';
 
 export const INTERFACE_CUTOFF = 5;  // angstrom between heavy atoms
 
@@ -39,7 +40,7 @@ export async function makeViewer(run) {
   const [fixedBody, movingBody] = run.bodies;
   const hasStructures = run.bodies.every((body) => body.structure || body.mesh);
   if (!hasStructures) {
-    message.textContent = 'The structures are not part of this page.';
+    message.textContent = 'Without structures: an input file was not found when this page was made. The numbers and plots need none.';
     return null;
   }
   let viewer;
@@ -57,7 +58,7 @@ export async function makeViewer(run) {
   canvas.setAttribute('aria-label', '3D view of the chosen pose');
 
   const isMesh = Boolean(fixedBody.mesh);
-  const options = { seeThrough: isMesh ? 40 : 15, exploded: 0, fixedStyle: 'surface', colour: 'plain', residues: !isMesh, labels: false };
+  const options = { seeThrough: isMesh ? 40 : 15, exploded: 0, fixedStyle: 'surface', colour: 'plain', residues: !isMesh, labels: false, wayOut: true };
   let current = -1;
   let shown = null;  // { fixed: Set of atom indices, moving: Set } of the interface
   let contacts = [];
@@ -146,12 +147,56 @@ export async function makeViewer(run) {
     }
   }
 
-  const meshes = isMesh ? showMesh(viewer, fixedBody, movingBody) : null;
+  const partContact = isMesh ? makePartContact(run) : null;
+  let faceContacts = { pairs: [], contact: 0, overlap: 0 };
+  let pair = null;  // of faces
+
+  // Along the way out, from just beyond the moving part.
+  function wayOut() {
+    const pull = run.pull?.[current];
+    if (!options.wayOut || !pull) return null;
+    const at = moved(motion(run, current, explodedShift()), movingBody.mesh.vertices);
+    const centre = moved(motion(run, current, explodedShift()), movingBody.center);
+    let far = -Infinity;
+    for (let i = 0; i < at.length; i += 3) {
+      const along = (at[i] - centre[0]) * pull[0] + (at[i + 1] - centre[1]) * pull[1] + (at[i + 2] - centre[2]) * pull[2];
+      if (along > far) far = along;
+    }
+    const point = (distance) => pull.map((x, k) => centre[k] + distance * x);
+    return { from: point(far + 0.04 * movingBody.radius), to: point(far + 0.5 * movingBody.radius) };
+  }
+
+  /** What is coloured on the fixed part: how often poses touch it, or where this one does, of one pair of faces or all. */
+  function partColours() {
+    if (options.colour === 'density') {
+      const table = Array.from(frequency, (_, i) => ramp(share(i), false));
+      return { colours: (v) => table[v] };
+    }
+    if (options.colour !== 'contact' || current < 0) return {};
+    const { gaps, touching } = faceContacts;
+    const { tolerance, reach, faces } = partContact;
+    const triangles = [];
+    gaps.forEach((gap, t) => {
+      if (pair ? touching[t] && faces[0].of[t] === pair.fixed && faceContacts.partner[t] === pair.moving : !Number.isNaN(gap)) triangles.push(t);
+    });
+    const near = (gap) => 0.65 * (1 - (Math.abs(gap) - tolerance) / (reach - tolerance));
+    return { patch: { triangles, colour: (t) => (touching[t] === 2 ? OVERLAP : touching[t] ? CONTACT_3D[1] : mix(CONTACT_3D, near(gaps[t]))) } };
+  }
+
+  /** Shows where one pair of faces touches; the same pair again, or none: all of them. */
+  function showPair(chosen) {
+    pair = chosen && !(pair && pair.fixed === chosen.fixed && pair.moving === chosen.moving) ? chosen : null;
+    options.colour = 'contact';
+    byId('colour').value = 'contact';
+    drawLegend();
+    redraw();
+  }
+
+  const meshes = isMesh ? showMesh(viewer, fixedBody, movingBody, partContact.faces) : null;
 
   function place() {
     if (isMesh) {
-      const colours = options.colour === 'density' ? Array.from(frequency, (_, i) => ramp(share(i), false)) : null;
-      meshes.draw(current < 0 ? null : motion(run, current, explodedShift()), { opacity: 1 - options.seeThrough / 100, colours });
+      meshes.draw(current < 0 ? null : motion(run, current, explodedShift()), { opacity: 1 - options.seeThrough / 100, ...partColours(), way: current < 0 ? null : wayOut() });
     } else {
       moved(current < 0 ? [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0] : motion(run, current, explodedShift()), moving.input, moving.at = new Float32Array(moving.input.length));
       moving.atoms.forEach((atom, i) => { [atom.x, atom.y, atom.z] = moving.at.subarray(3 * i, 3 * i + 3); });
@@ -173,7 +218,10 @@ export async function makeViewer(run) {
   function show(pose) {
     const first = current < 0;
     current = pose;
-    if (!isMesh) measureContacts();
+    pair = null;
+    if (isMesh) faceContacts = partContact.measure(pose);
+    else measureContacts();
+    drawLegend();
     if (first) {
       place();
       home();
@@ -208,16 +256,23 @@ export async function makeViewer(run) {
 
   const legend = element('div', { class: 'legend' });
   function drawLegend() {
-    const swatch = (colour, text) => {
-      const box = element('i', { class: 'swatch' });
-      box.style.background = `#${colour.toString(16).padStart(6, '0')}`;
-      return element('div', {}, box, element('span', {}, text));
+    const box = (colour) => {
+      const made = element('i', { class: 'swatch' });
+      made.style.background = colour;
+      return made;
     };
+    const swatch = (colour, text) => element('div', {}, box(`#${colour.toString(16).padStart(6, '0')}`), element('span', {}, text));
     const rows = [swatch(BODY.fixed, fixedBody.name), swatch(BODY.moving, movingBody.name)];
     if (options.colour === 'density') {
       const bar = element('i', { class: 'ramp' });
       bar.style.background = rampCss(false);
       rows.push(element('div', {}, bar, element('span', {}, `touched by 0 to ${Math.round(100 * most)}% of the best ${run.frequency_poses.toLocaleString('en')} poses`)));
+    }
+    if (options.colour === 'contact')
+      rows.push(element('div', {}, box(css(CONTACT_3D[1])), element('span', {}, pair ? `${partContact.faces[0].names[pair.fixed]} on ${partContact.faces[1].names[pair.moving]}` : 'in contact, paler: near')), element('div', {}, box(css(OVERLAP)), element('span', {}, 'overlapping')));
+    if (isMesh && options.wayOut && run.pull?.[current]) {
+      const held = run.column.pull_blocked?.values[current];
+      rows.push(swatch(BODY.wayOut, Number.isFinite(held) ? `way out, held by ${Math.round(held)}% of the contact` : 'way out'));
     }
     legend.replaceChildren(...rows);
   }
@@ -231,14 +286,19 @@ export async function makeViewer(run) {
     const surfaceThen = () => updateSurface().then(redraw);
     const hasMap = most > 0;
     const colour = () => {
+      pair = null;
       drawLegend();
       surfaceThen();
     };
     const wide = (label, control) => element('label', { class: 'field' }, element('span', {}, label), control);
     byId('controls').replaceChildren(
       isMesh ? '' : wide('Receptor', choice('Receptor shown as', [['surface', 'surface'], ['cartoon', 'cartoon']], options.fixedStyle, change('fixedStyle', surfaceThen), { id: 'fixed-style' })),
-      hasMap ? wide('Colour', choice('Colour of the fixed body', [['plain', 'by body'], ['density', 'where poses sit']], options.colour, change('colour', colour), { id: 'colour' })) : '',
+      hasMap || isMesh ? wide('Colour', choice('Colour of the fixed body', [['plain', 'by body'], ...(isMesh ? [['contact', 'contact of this pose']] : []), ...(hasMap ? [['density', 'where poses sit']] : [])], options.colour, change('colour', colour), { id: 'colour' })) : '',
       slider('See-through', options.seeThrough, (v) => `${v}%`, change('seeThrough', isMesh ? redraw : surfaceThen), { max: 90, id: 'see-through' }),
+      isMesh && run.pull?.some(Boolean) ? checkbox('Way out', options.wayOut, change('wayOut', () => {
+        drawLegend();
+        redraw();
+      }), { id: 'way-out' }) : '',
       slider('Exploded', options.exploded, (v) => `${v}%`, change('exploded', redraw), { id: 'exploded' }),
       isMesh ? '' : checkbox('Interface', options.residues, change('residues', redraw), { id: 'interface' }),
       isMesh ? '' : checkbox('Labels', options.labels, change('labels', redraw)),
@@ -270,7 +330,9 @@ export async function makeViewer(run) {
   setTimeout(() => updateSurface().then(redraw), 60);
 
   return {
-    show, theme, home, fixed, moving, isMesh,
+    show, theme, home, fixed, moving, isMesh, partContact,
+    faceContacts: () => faceContacts,
+    showPair,
     contacts: () => contacts,
     onContacts: (listener) => listeners.push(listener),
     surfaceReady: () => surface !== null || isMesh,
