@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
+#include "closed_mesh.hpp"
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/sample_surface.hpp"
@@ -15,18 +14,6 @@ namespace mortise::testing {
 namespace {
 
 double area(const TriangleMesh& mesh) { return sample_surface(mesh, 1).area; }
-
-// Each edge as often one way as the other: closed, no vertex on another's edge.
-bool is_closed(const TriangleMesh& mesh) {
-  std::map<std::pair<int, int>, int> sides;
-  for (Eigen::Index t = 0; t < mesh.size(); ++t)
-    for (int k = 0; k < 3; ++k) ++sides[{mesh.triangles(k, t), mesh.triangles((k + 1) % 3, t)}];
-  for (const auto& [edge, count] : sides) {
-    const auto back = sides.find({edge.second, edge.first});
-    if (count != 1 || back == sides.end()) return false;
-  }
-  return true;
-}
 
 TEST(PageMesh, IsSimplifiedWithinTheStatedDeviation) {
   const TriangleMesh ball = ball_mesh(Eigen::Vector4d(100.0, -50.0, 7.0, 2.0), 32);  // 20,480

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
+#include "closed_mesh.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "report/density_surface.hpp"
@@ -25,20 +25,6 @@ double volume(const TriangleMesh& mesh) {
                         .cross(mesh.vertices.col(mesh.triangles(2, t)))) /
            6.0;
   return sum;
-}
-
-// Each side of a triangle runs as often one way as the other: nothing is open.
-bool is_closed(const TriangleMesh& mesh) {
-  std::map<std::pair<int, int>, int> sides;
-  for (Eigen::Index t = 0; t < mesh.size(); ++t)
-    for (int c = 0; c < 3; ++c) {
-      const int a = mesh.triangles(c, t);
-      const int b = mesh.triangles((c + 1) % 3, t);
-      sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-    }
-  for (const auto& [side, count] : sides)
-    if (count != 0) return false;
-  return true;
 }
 
 TEST(DensitySurface, OfOneBallIsItsSphere) {
