@@ -9,28 +9,14 @@
 #include <vector>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/core/threads.hpp"
 #include "mortise/parts/decompose.hpp"
 #include "mortise/parts/distance_grid.hpp"
 #include "mortise/parts/sphere_tree.hpp"
+#include "parts/distances.hpp"
 #include "parts/node_field.hpp"
 
 namespace mortise {
 namespace {
-
-Eigen::VectorXd all_distances(const Solid& solid, const Eigen::Matrix3Xd& points, double band,
-                              int threads) {
-  constexpr Eigen::Index kChunk = 2048;
-  Eigen::VectorXd result(points.cols());
-  parallel_for(static_cast<std::size_t>((points.cols() + kChunk - 1) / kChunk), threads,
-               [&](std::size_t chunk, int) {
-                 const Eigen::Index first = static_cast<Eigen::Index>(chunk) * kChunk;
-                 const Eigen::Index count = std::min(kChunk, points.cols() - first);
-                 result.segment(first, count) =
-                     solid.signed_distance(points.middleCols(first, count), band);
-               });
-  return result;
-}
 
 // An upper bound on h(p) = min_i |p - x_i| - s_i over the points p of the solid that is at most
 // `tolerance` above the largest. h changes no faster than p: in a cell of half diagonal rho about q
@@ -52,7 +38,7 @@ double cover_of(const Solid& solid, const Eigen::Matrix4Xd& balls, double tolera
     std::vector<Eigen::Index> open;
     for (Eigen::Index i = 0; i < h.size(); ++i)
       if (h[i] + rho > most + tolerance) open.push_back(i);
-    const Eigen::VectorXd d = all_distances(solid, cells(Eigen::all, open), 1.001 * rho, threads);
+    const Eigen::VectorXd d = distances(solid, cells(Eigen::all, open), 1.001 * rho, threads);
     for (std::size_t i = 0; i < open.size(); ++i)
       if (d[i] <= rho) most = std::max(most, h[open[i]] - std::max(0.0, d[i]));
     std::vector<Eigen::Index> kept;
@@ -96,8 +82,8 @@ CollisionBody collision_body(const Solid& solid, const CollisionBodyOptions& opt
   const Decomposition found = decompose(grid, {.threads = options.threads});
   CollisionBody body{found.knots, 0.0, cell_shares(grid)};
   Eigen::Matrix4Xd& balls = body.balls.points;
-  balls.row(3) = -all_distances(solid, balls.topRows<3>(), std::numeric_limits<double>::infinity(),
-                                options.threads)
+  balls.row(3) = -distances(solid, balls.topRows<3>(), std::numeric_limits<double>::infinity(),
+                            options.threads)
                       .transpose();
   // Distances are exact but for the rounding of coordinates.
   const double hair = 1e-12 * (box.min().cwiseAbs() + box.max().cwiseAbs()).maxCoeff();
