@@ -2,6 +2,7 @@
 // Whether a mesh is closed, for tests of meshes the report makes.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -9,16 +10,16 @@
 
 namespace mortise::testing {
 
-/// Each edge once one way and once the other: closed, no vertex on another's edge.
+/// Each edge as often one way as the other: nothing is open, no vertex lies on another's edge.
 inline bool is_closed(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> sides;
   for (Eigen::Index t = 0; t < mesh.size(); ++t)
-    for (int k = 0; k < 3; ++k) ++sides[{mesh.triangles(k, t), mesh.triangles((k + 1) % 3, t)}];
-  for (const auto& [edge, count] : sides) {
-    const auto back = sides.find({edge.second, edge.first});
-    if (count != 1 || back == sides.end()) return false;
-  }
-  return true;
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(k, t);
+      const int b = mesh.triangles((k + 1) % 3, t);
+      sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  return std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 0; });
 }
 
 }  // namespace mortise::testing
