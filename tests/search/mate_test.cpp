@@ -130,7 +130,7 @@ TEST(ContactFit, OfTheSeatIsItsContactArea) {
   raised.translation << 0, 0, 0.5;
   const ContactFit walls = pair.fit(raised, 0.05, 1.0);
   EXPECT_NEAR(walls.contact, 25.0, 2.5);  // along 2.5 of the walls
-  EXPECT_LT(walls.one_sided, 2.5);  // opposite walls cancel but for their samples
+  EXPECT_LT(walls.one_sided, 2.5);        // opposite walls cancel but for their samples
   RigidMotion sunk;
   sunk.translation << 0, 0, -0.1;
   EXPECT_GT(pair.fit(sunk, 0.05, 1.0).penetration, 36.0);
