@@ -57,6 +57,7 @@ std::vector<std::string> files_of_parts(const Run& run, ExportFormat format,
   if (output == "-")
     throw InputError("export: stdout takes one placement of parts; choose it by --pose");
   std::vector<std::string> files;
+  files.reserve(poses.size());
   for (const std::size_t i : poses) files.push_back(with_rank(output, i + 1));
   return files;
 }
@@ -70,7 +71,7 @@ std::string export_parts(const Run& run, ExportFormat format, const ExportFlags&
                                               {options.moving_path, options.force}, options.choice);
   const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
   for (std::size_t n = 0; n < poses.size(); ++n) {
-    const std::string text = export_part(run, format, poses[n], parts, options.choice);
+    std::string text = export_part(run, format, poses[n], parts, options.choice);
     if (files[n] == "-") return text;
     write_file_atomically(files[n], text);
   }

@@ -38,7 +38,7 @@ struct Lanes {
 
 [[gnu::always_inline]] inline Lanes zero() {
   Lanes r;
-  for (int p = 0; p < kParts; ++p) r.part[p] = Vector{};
+  for (Vector& part : r.part) part = Vector{};
   return r;
 }
 
