@@ -12,6 +12,7 @@
 
 #include "core/point_grid.hpp"
 #include "metrics/probe_arcs.hpp"
+#include "molecules/check_balls.hpp"
 #include "molecules/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
@@ -237,14 +238,7 @@ class Surface {
 void check(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
            const MolecularSurfaceOptions& options) {
   const std::string where = "molecular_surface: ";
-  if (centres.cols() != radii.size())
-    throw InputError(where + "expected one radius per centre, found " +
-                     std::to_string(radii.size()) + " radii for " + std::to_string(centres.cols()) +
-                     " centres");
-  if (!centres.allFinite() || !radii.allFinite())
-    throw InputError(where + "expected finite centres and radii");
-  if (radii.size() > 0 && !(radii.minCoeff() >= 0.0))
-    throw InputError(where + "radii must be >= 0, got " + std::to_string(radii.minCoeff()));
+  check_balls(where, centres, radii);
   for (const auto& [name, value] :
        {std::pair("probe_radius", options.probe_radius), std::pair("density", options.density)})
     if (!(value > 0.0 && std::isfinite(value)))

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "molecules/check_balls.hpp"
 #include "molecules/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
@@ -87,14 +88,7 @@ struct Cap {
 void check(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
            const SurfaceOptions& options) {
   const std::string where = "accessible_areas: ";
-  if (centres.cols() != radii.size())
-    throw InputError(where + "expected one radius per centre, found " +
-                     std::to_string(radii.size()) + " radii for " + std::to_string(centres.cols()) +
-                     " centres");
-  if (!centres.allFinite() || !radii.allFinite())
-    throw InputError(where + "expected finite centres and radii");
-  if (radii.size() > 0 && !(radii.minCoeff() >= 0.0))
-    throw InputError(where + "radii must be >= 0, got " + std::to_string(radii.minCoeff()));
+  check_balls(where, centres, radii);
   if (!(options.probe_radius >= 0.0 && std::isfinite(options.probe_radius)))
     throw InputError(where + "probe_radius must be >= 0, got " +
                      std::to_string(options.probe_radius));

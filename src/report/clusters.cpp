@@ -3,8 +3,6 @@
 #include "mortise/report/clusters.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -14,6 +12,7 @@
 #include "mortise/parts/sample_surface.hpp"
 #include "mortise/search/cluster.hpp"
 #include "report/heavy_atoms.hpp"
+#include "store/csv_text.hpp"
 
 namespace mortise {
 namespace {
@@ -129,22 +128,6 @@ void check(const ReportClusterOptions& options, const ReportBodies& bodies) {
         "expected one > 0");
   if (bodies.fixed.is_missing() || bodies.moving.is_missing())
     throw InputError("report: clusters by interface need both input files");
-}
-
-// The shortest text that reads back to the same number; empty for NaN.
-std::string shortest(double value) {
-  if (std::isnan(value)) return "";
-  std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
-// RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
 }
 
 bool repeats(const MetricColumn& metric) { return metric.name == "cluster_size"; }

@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Poses as CSV and JSON, and the choice of poses.
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/store/export.hpp"
+#include "store/csv_text.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr std::size_t kDefaultStructures = 10;
-
-// The shortest text that reads back to the same number, in any locale.
-std::string shortest(double value) {
-  if (std::isnan(value)) return "";
-  std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
-// RFC 4180: quoted where a comma, a quote or a line end is inside.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 nlohmann::ordered_json body_json(const BodyRecord& body) {
   return {{"path", body.path}, {"spec", body.spec}, {"sha256", body.sha256}};
