@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise dock: searches all placements of one molecule against another.
-#include "mortise/search/dock.hpp"
+#include "mortise/runs/dock.hpp"
 
 #include <cstdio>
 #include <memory>

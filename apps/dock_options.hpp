@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mortise/molecules/read_molecule.hpp"
-#include "mortise/search/dock.hpp"
+#include "mortise/runs/dock.hpp"
 #include "search_command.hpp"
 
 namespace mortise::app {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise mate: finds how two mechanical parts fit together.
-#include "mortise/search/mate.hpp"
+#include "mortise/runs/mate.hpp"
 
 #include <cstdio>
 #include <memory>

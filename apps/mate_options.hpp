@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "mortise/search/mate.hpp"
+#include "mortise/runs/mate.hpp"
 #include "search_command.hpp"
 
 namespace mortise::app {

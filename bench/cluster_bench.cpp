@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "mortise/search/cluster.hpp"
+#include "mortise/poses/cluster.hpp"
 #include "search/sample_bodies.hpp"
 
 namespace mortise {

@@ -22,7 +22,7 @@
 #include "mortise/molecules/read_molecule.hpp"
 #include "mortise/molecules/to_knots.hpp"
 #include "mortise/rotations/rotation_set.hpp"
-#include "mortise/search/dock.hpp"
+#include "mortise/runs/dock.hpp"
 #include "search/components.hpp"
 #include "search/correlator.hpp"
 

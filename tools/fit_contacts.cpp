@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits the contact potential (src/search/data/contacts.txt) to a table of known complexes.
+// Fits the contact potential (src/scoring/data/contacts.txt) to a table of known complexes.
 //
 // For each pair the search is run from a random start and its poses are scored by the potential so
 // far. The poses that are near the answer, the best others, and a sample of the rest become one
@@ -31,9 +31,9 @@
 #include "mortise/molecules/contact_types.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "mortise/molecules/read_molecule.hpp"
-#include "mortise/search/contact_potential.hpp"
-#include "mortise/search/dock.hpp"
-#include "mortise/search/score_maps.hpp"
+#include "mortise/runs/dock.hpp"
+#include "mortise/scoring/contact_potential.hpp"
+#include "mortise/scoring/score_maps.hpp"
 
 namespace mortise {
 namespace {

@@ -10,7 +10,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "mortise/parts/sample_surface.hpp"
-#include "mortise/search/cluster.hpp"
+#include "mortise/poses/cluster.hpp"
 #include "report/heavy_atoms.hpp"
 #include "store/csv_text.hpp"
 

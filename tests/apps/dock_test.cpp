@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise dock as a user runs it: output, run file, threads, Ctrl-C and going on, errors.
-#include "mortise/search/dock.hpp"
+#include "mortise/runs/dock.hpp"
 
 #include <cmath>
 #include <numeric>

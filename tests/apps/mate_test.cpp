@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise mate as a user runs it: output, evaluation, export, threads, going on, errors.
-#include "mortise/search/mate.hpp"
+#include "mortise/runs/mate.hpp"
 
 #include "apps/program.hpp"
 #include "mortise/metrics/true_mates.hpp"

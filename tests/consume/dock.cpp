@@ -2,7 +2,7 @@
 // The README's example of the library: docks two files and prints the ten best poses.
 #include <cstdio>
 #include <mortise/molecules/read_molecule.hpp>
-#include <mortise/search/dock.hpp>
+#include <mortise/runs/dock.hpp>
 
 int main() {
   const auto read = [](const char* file) {

@@ -10,7 +10,7 @@
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/kernels/ball.hpp"
-#include "search/voxel_parts.hpp"
+#include "runs/voxel_parts.hpp"
 
 namespace mortise {
 namespace {

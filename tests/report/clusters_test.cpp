@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/search/cluster.hpp"
+#include "mortise/poses/cluster.hpp"
 #include "sample_report.hpp"
 
 namespace mortise::testing {
