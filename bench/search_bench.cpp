@@ -63,7 +63,8 @@ struct Stages {
 Stages stages_of(const std::vector<Channel>& channels, RotationSearch& search,
                  const RotationSet& rotations, const SearchOptions& o, int count) {
   Components components =
-      make_components(channels, search.search_from_fixed(), search.grid_size(), o.spacing, 1);
+      make_components(channels, search.search_from_fixed(), search.grid_size(), o.spacing,
+                      {.low_pass = {.cutoff = o.cutoff}, .threads = 1});
   components.points = search.search_from_moving() * components.points;
   const auto parts = static_cast<int>(components.parts.size());
   Correlator correlator(search.grid_size(), o.spacing,
@@ -80,7 +81,7 @@ Stages stages_of(const std::vector<Channel>& channels, RotationSearch& search,
           k < o.cutoff ? 0.5 * (1.0 + std::cos(std::numbers::pi * k / o.cutoff)) : 0.0;
       const std::size_t at =
           (static_cast<std::size_t>(kx + nx / 2) * ny + (ky + ny / 2)) * (nz / 2 + 1) + kz;
-      return components.parts[p].spectrum[at] * window;
+      return components.parts[p].spectra[0][at] * window;
     });
   }
   Correlator::Workspace w(correlator);

@@ -124,8 +124,8 @@ class Sums {
 
   double compressed() {
     const auto [least, most] = radii();
-    const CompressedRadius kernel =
-        compress_radius(RadialKernel(kAlpha), largest_, least, most, {.tolerance = kKernelError});
+    const CompressedRadius kernel = compress_radius(transform_of(RadialKernel(kAlpha)), largest_,
+                                                    least, most, {.tolerance = kKernelError});
     Eigen::MatrixXf b(knots_.size(), kernel.terms());
     for (Eigen::Index i = 0; i < knots_.size(); ++i)
       b.row(i) = knots_.weights[i].real() *

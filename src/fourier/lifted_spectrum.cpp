@@ -77,9 +77,6 @@ Eigen::MatrixXcd by_fourth_axis(const Knots& knots, const ConeSeries& cone, cons
 Eigen::MatrixXcd by_compression(const Knots& knots, const CompressedRadius& compressed,
                                 const Shells& shells, const std::array<int, 3>& modes,
                                 const std::array<double, 3>& box, const LiftedOptions& options) {
-  Eigen::MatrixXd factors(compressed.terms(), static_cast<Eigen::Index>(shells.lengths.size()));
-  for (Eigen::Index s = 0; s < factors.cols(); ++s)
-    factors.col(s) = compressed.frequency_factors(shells.lengths[s]);
   const Eigen::Index total = static_cast<Eigen::Index>(shells.of_mode.size());
   Eigen::MatrixXcd result =
       Eigen::MatrixXcd::Zero(total, static_cast<Eigen::Index>(options.offsets.size()));
@@ -87,17 +84,22 @@ Eigen::MatrixXcd by_compression(const Knots& knots, const CompressedRadius& comp
              {.tolerance = std::max(1e-12, kSumShare * options.tolerance),
               .expected_points = knots.size(),
               .threads = options.threads});
-  for (Eigen::Index column = 0; column < result.cols(); ++column) {
-    Eigen::MatrixXd b(knots.size(), compressed.terms());
-    for (Eigen::Index i = 0; i < knots.size(); ++i)
-      b.row(i) =
-          compressed.radius_factors(knots.points(3, i) + options.offsets[column]).transpose();
-    for (int q = 0; q < compressed.terms(); ++q) {
-      const Eigen::VectorXcd weights = knots.weights.array() * b.col(q).array();
-      const auto sums = plan.transform(knots.points.topRows<3>(), weights);
+  Eigen::MatrixXd b(knots.size(), compressed.terms());
+  for (Eigen::Index i = 0; i < knots.size(); ++i)
+    b.row(i) = compressed.radius_factors(knots.points(3, i));
+  std::vector<Eigen::MatrixXd> factors;  // of each offset: terms x shells
+  for (std::size_t o = 0; o < options.offsets.size(); ++o) {
+    factors.emplace_back(compressed.terms(), static_cast<Eigen::Index>(shells.lengths.size()));
+    for (Eigen::Index s = 0; s < factors[o].cols(); ++s)
+      factors[o].col(s) = compressed.frequency_factors(shells.lengths[s], o);
+  }
+  // The basis in the radius is the same at all offsets: one transform a term serves them.
+  for (int q = 0; q < compressed.terms(); ++q) {
+    const Eigen::VectorXcd weights = knots.weights.array() * b.col(q).array();
+    const auto sums = plan.transform(knots.points.topRows<3>(), weights);
+    for (std::size_t o = 0; o < factors.size(); ++o)
       for (Eigen::Index i = 0; i < total; ++i)
-        result(i, column) += factors(q, shells.of_mode[i]) * sums[i];
-    }
+        result(i, static_cast<Eigen::Index>(o)) += factors[o](q, shells.of_mode[i]) * sums[i];
   }
   return result;
 }
@@ -122,18 +124,21 @@ Eigen::MatrixXcd lifted_spectrum(const Knots& knots, const RadialKernel& kernel,
       throw InputError("lifted_spectrum: expected mode counts >= 1 and box sides > 0, got " +
                        std::to_string(modes[d]) + " modes on side " + std::to_string(box[d]));
   const Shells shells = shells_of(modes, box);
-  const auto [least, most] = std::minmax_element(options.offsets.begin(), options.offsets.end());
   const double k_max =
       std::max(*std::max_element(shells.lengths.begin(), shells.lengths.end()), 1e-3 / box[0]);
-  const double r_min = knots.points.row(3).minCoeff() + *least,
-               r_max = knots.points.row(3).maxCoeff() + *most;
   const double tolerance = std::max(1e-10, kKernelShare * options.tolerance);
   if (options.form == LiftedForm::kCompressed)
-    return by_compression(knots,
-                          compress_radius(kernel, k_max, r_min, r_max, {.tolerance = tolerance}),
-                          shells, modes, box, options);
-  return by_fourth_axis(knots, fitted_cone(kernel, k_max, r_min, r_max, tolerance), shells, modes,
-                        box, options);
+    return by_compression(
+        knots,
+        compress_radius(transform_of(kernel), k_max,
+                        std::vector<double>(knots.points.row(3).begin(), knots.points.row(3).end()),
+                        {.tolerance = tolerance, .offsets = options.offsets}),
+        shells, modes, box, options);
+  const auto [least, most] = std::minmax_element(options.offsets.begin(), options.offsets.end());
+  return by_fourth_axis(knots,
+                        fitted_cone(kernel, k_max, knots.points.row(3).minCoeff() + *least,
+                                    knots.points.row(3).maxCoeff() + *most, tolerance),
+                        shells, modes, box, options);
 }
 
 }  // namespace mortise

@@ -87,4 +87,8 @@ double RadialKernel::transform(double k, double r) const {
   return r * r * r * unit_transform(std::abs(k * r));
 }
 
+RadialTransform transform_of(const RadialKernel& kernel) {
+  return [kernel](double k, double r) { return kernel.transform(k, r); };
+}
+
 }  // namespace mortise

@@ -2,139 +2,93 @@
 // Channels taken apart into the real point sets that the search transforms.
 #include "search/components.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
+#include "mortise/core/threads.hpp"
 #include "mortise/fourier/nfft.hpp"
+#include "mortise/kernels/compressed_radius.hpp"
 
 namespace mortise {
 namespace {
 
-using Spectrum = std::vector<std::complex<double>>;
-
 // Far below what single precision and the coarse grid leave.
 constexpr double kFixedTolerance = 1e-5;
 
-// Relative to the largest value of the table; far below what the coarse grid leaves.
-constexpr double kRadiusTolerance = 1e-3;
+// |k| of every mode of a half spectrum. Modes that differ in the signs of kx and ky share an entry,
+// so that radial functions are evaluated once for them.
+struct Frequencies {
+  std::vector<double> lengths;
+  std::vector<std::uint32_t> of_mode;  // index into lengths
 
-// transform(k, r) ~ sum_q a_q(k) b_q(r) over the radii of some knots, with as few terms as the
-// tolerance allows: one for equal radii. The compressed fourth dimension of docs/math.md, for any
-// radial transform.
-struct RadiusTerms {
-  std::vector<double> radii;  // distinct, ascending
-  Eigen::MatrixXd factors;  // radii x Q, orthonormal columns: b_q(r), and the weights that make a_q
-                            // from transform()
-
-  [[nodiscard]] Eigen::Index row_of(double radius) const {
-    return std::lower_bound(radii.begin(), radii.end(), radius) - radii.begin();
+  Frequencies(const std::array<int, 3>& size, double spacing) {
+    const auto [nx, ny, nz] = size;
+    for (int i = 0; i <= nx / 2; ++i)
+      for (int j = 0; j <= ny / 2; ++j)
+        for (int k = 0; k <= nz / 2; ++k) {
+          const double x = i / (nx * spacing), y = j / (ny * spacing), z = k / (nz * spacing);
+          lengths.push_back(std::sqrt(x * x + y * y + z * z));
+        }
+    of_mode.reserve(static_cast<std::size_t>(nx) * ny * (nz / 2 + 1));
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        for (int k = 0; k <= nz / 2; ++k)
+          of_mode.push_back(static_cast<std::uint32_t>(
+              (std::abs(i - nx / 2) * (ny / 2 + 1) + std::abs(j - ny / 2)) * (nz / 2 + 1) + k));
   }
-  // a_q(k) for all q: exact where transform(k, .) lies in the span of the factors.
-  [[nodiscard]] Eigen::VectorXd frequency_factors(const RadialTransform& transform,
-                                                  double k) const {
-    Eigen::VectorXd values(radii.size());
-    for (std::size_t j = 0; j < radii.size(); ++j) values[j] = transform(k, radii[j]);
-    return factors.transpose() * values;
+
+  // a_q(k) of every length, terms x lengths; 0 where nothing passes.
+  [[nodiscard]] Eigen::MatrixXd factors(const CompressedRadius& compressed, std::size_t offset,
+                                        const ComponentOptions& options) const {
+    Eigen::MatrixXd result =
+        Eigen::MatrixXd::Zero(compressed.terms(), static_cast<Eigen::Index>(lengths.size()));
+    constexpr std::size_t kPiece = 1024;
+    parallel_for((lengths.size() + kPiece - 1) / kPiece, options.threads,
+                 [&](std::size_t piece, int) {
+                   const std::size_t end = std::min(lengths.size(), (piece + 1) * kPiece);
+                   for (std::size_t n = piece * kPiece; n < end; ++n)
+                     if (options.low_pass(lengths[n]) > 0.0)
+                       result.col(static_cast<Eigen::Index>(n)) =
+                           compressed.frequency_factors(lengths[n], offset);
+                 });
+    return result;
   }
 };
 
-RadiusTerms radius_terms(const Knots& knots, const RadialTransform& transform, double k_max) {
-  RadiusTerms terms;
-  terms.radii.assign(knots.points.row(3).begin(), knots.points.row(3).end());
-  std::sort(terms.radii.begin(), terms.radii.end());
-  terms.radii.erase(std::unique(terms.radii.begin(), terms.radii.end()), terms.radii.end());
-  const auto count = static_cast<Eigen::Index>(terms.radii.size());
-  if (count == 1) {
-    terms.factors = Eigen::MatrixXd::Ones(1, 1);
-    return terms;
-  }
-  // Fine enough for any transform that the box can resolve: bodies are at most some hundred radii
-  // wide.
-  constexpr int kSamples = 256;
-  Eigen::MatrixXd table(kSamples, count);
-  for (int i = 0; i < kSamples; ++i)
-    for (Eigen::Index j = 0; j < count; ++j)
-      table(i, j) = transform(k_max * i / (kSamples - 1), terms.radii[j]);
-  // Right singular vectors, largest singular value first, from the smaller Gram matrix: half of
-  // double's digits are lost, and the tolerance needs three.
-  const bool wide = count > kSamples;
-  const Eigen::MatrixXd gram = wide ? Eigen::MatrixXd(table * table.transpose())
-                                    : Eigen::MatrixXd(table.transpose() * table);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse();
-  if (wide) vectors = (table.transpose() * vectors).eval();
-  const double limit = kRadiusTolerance * table.cwiseAbs().maxCoeff();
-  for (Eigen::Index q = 1; q <= vectors.cols(); ++q) {
-    terms.factors = vectors.leftCols(q);
-    terms.factors.colwise().normalize();
-    const Eigen::MatrixXd rest = table - (table * terms.factors) * terms.factors.transpose();
-    if (rest.cwiseAbs().maxCoeff() <= limit) break;
-  }
-  return terms;
+CompressedRadius compress(const Knots& knots, const RadialTransform& transform, double k_max,
+                          const std::vector<double>& offsets, const ComponentOptions& options) {
+  return compress_radius(
+      transform, k_max, std::vector<double>(knots.points.row(3).begin(), knots.points.row(3).end()),
+      {.tolerance = options.radius_tolerance, .offsets = offsets, .low_pass = options.low_pass});
 }
 
-class FixedField {
- public:
-  FixedField(const std::array<int, 3>& size, double spacing, int threads)
-      : nfft_(size, {size[0] * spacing, size[1] * spacing, size[2] * spacing},
-              {.tolerance = kFixedTolerance, .weights = WeightKind::kReal, .threads = threads}),
-        frequency_(static_cast<std::size_t>(size[0]) * size[1] * (size[2] / 2 + 1)) {
-    std::size_t n = 0;
-    for (int i = 0; i < size[0]; ++i)
-      for (int j = 0; j < size[1]; ++j)
-        for (int k = 0; k <= size[2] / 2; ++k, ++n) {
-          const double x = (i - size[0] / 2) / (size[0] * spacing);
-          const double y = (j - size[1] / 2) / (size[1] * spacing);
-          const double z = k / (size[2] * spacing);
-          frequency_[n] = std::sqrt(x * x + y * y + z * z);
-          frequency_max_ = std::max(frequency_max_, frequency_[n]);
-        }
+// weights_i b_q(r_i): one column per term.
+Eigen::MatrixXd shares_of(const Knots& knots, const Eigen::VectorXd& weights,
+                          const CompressedRadius& compressed) {
+  std::map<double, Eigen::VectorXd> factors;
+  Eigen::MatrixXd shares(knots.size(), compressed.terms());
+  for (Eigen::Index i = 0; i < knots.size(); ++i) {
+    const auto [entry, is_new] = factors.try_emplace(knots.points(3, i));
+    if (is_new) entry->second = compressed.radius_factors(entry->first);
+    shares.row(i) = weights[i] * entry->second.transpose();
   }
-
-  [[nodiscard]] const std::vector<double>& frequency() const { return frequency_; }
-
-  // sum_i weights_i transform(k, r_i) exp(-2 pi i k.x_i) over all modes.
-  [[nodiscard]] Spectrum of(const Knots& knots, const Eigen::VectorXd& weights,
-                            const RadialTransform& transform, const RigidMotion& motion) {
-    const RadiusTerms terms = radius_terms(knots, transform, frequency_max_);
-    const Eigen::Matrix3Xd points = motion * Eigen::Matrix3Xd(knots.points.topRows<3>());
-    const Eigen::MatrixXd shares = shares_of(knots, weights, terms);
-    Spectrum field(frequency_.size());
-    for (Eigen::Index q = 0; q < shares.cols(); ++q) {
-      const auto modes = nfft_.transform(points, Eigen::VectorXd(shares.col(q)));
-      for (std::size_t n = 0; n < field.size(); ++n)
-        field[n] += modes[n] * terms.frequency_factors(transform, frequency_[n])[q];
-    }
-    return field;
-  }
-
-  // weights_i b_q(r_i): one column per term.
-  [[nodiscard]] static Eigen::MatrixXd shares_of(const Knots& knots, const Eigen::VectorXd& weights,
-                                                 const RadiusTerms& terms) {
-    Eigen::MatrixXd shares(knots.size(), terms.factors.cols());
-    for (Eigen::Index i = 0; i < knots.size(); ++i)
-      shares.row(i) = weights[i] * terms.factors.row(terms.row_of(knots.points(3, i)));
-    return shares;
-  }
-
-  [[nodiscard]] double frequency_max() const { return frequency_max_; }
-
- private:
-  Nfft3 nfft_;
-  std::vector<double> frequency_;
-  double frequency_max_ = 0.0;
-};
+  return shares;
+}
 
 }  // namespace
 
 Components make_components(const std::vector<Channel>& channels,
                            const RigidMotion& search_from_fixed, const std::array<int, 3>& size,
-                           double spacing, int threads) {
-  FixedField fields(size, spacing, threads);
-  const double volume =
-      static_cast<double>(size[0]) * size[1] * size[2] * spacing * spacing * spacing;
+                           double spacing, const ComponentOptions& options) {
+  const auto [nx, ny, nz] = size;
+  const Frequencies frequencies(size, spacing);
+  const double k_max = frequencies.lengths.back();
+  Nfft3 nfft(
+      size, {nx * spacing, ny * spacing, nz * spacing},
+      {.tolerance = kFixedTolerance, .weights = WeightKind::kReal, .threads = options.threads});
+  const double volume = static_cast<double>(nx) * ny * nz * spacing * spacing * spacing;
 
   // Channels often share their centres (all atoms): equal centres are spread once per component.
   Components result;
@@ -160,22 +114,40 @@ Components make_components(const std::vector<Channel>& channels,
                             moving_weights = part(channel.moving);
       if (channel.weight == 0.0 || fixed_weights.isZero(0.0) || moving_weights.isZero(0.0))
         continue;
+
+      // sum_i weights_i transform(k, r_i) exp(-2 pi i k.x_i) over all modes.
+      const CompressedRadius of_fixed =
+          compress(channel.fixed, channel.fixed_transform, k_max, {0.0}, options);
+      const Eigen::Matrix3Xd points =
+          search_from_fixed * Eigen::Matrix3Xd(channel.fixed.points.topRows<3>());
+      const Eigen::MatrixXd fixed_shares = shares_of(channel.fixed, fixed_weights, of_fixed);
+      const Eigen::MatrixXd fixed_factors = frequencies.factors(of_fixed, 0, options);
+      HalfSpectrum field(frequencies.of_mode.size());
+      for (Eigen::Index q = 0; q < fixed_shares.cols(); ++q) {
+        const auto modes = nfft.transform(points, Eigen::VectorXd(fixed_shares.col(q)));
+        for (std::size_t n = 0; n < field.size(); ++n)
+          field[n] += modes[n] * fixed_factors(q, frequencies.of_mode[n]);
+      }
+
       // Re(c d) = Re c Re d - Im c Im d; 1 / volume is the inverse transform's.
       const double factor = (imaginary ? -1.0 : 1.0) * channel.weight / volume;
-      const Spectrum field =
-          fields.of(channel.fixed, fixed_weights, channel.fixed_transform, search_from_fixed);
-      const RadiusTerms terms =
-          radius_terms(channel.moving, channel.moving_transform, fields.frequency_max());
-      const Eigen::MatrixXd shares = FixedField::shares_of(channel.moving, moving_weights, terms);
+      const CompressedRadius of_moving =
+          compress(channel.moving, channel.moving_transform, k_max, options.offsets, options);
+      const Eigen::MatrixXd shares = shares_of(channel.moving, moving_weights, of_moving);
+      std::vector<Eigen::MatrixXd> factors;
+      for (std::size_t o = 0; o < options.offsets.size(); ++o)
+        factors.push_back(frequencies.factors(of_moving, o, options));
       for (Eigen::Index q = 0; q < shares.cols(); ++q) {
-        Component component{Eigen::VectorXf::Zero(result.points.cols()), field};
+        Component component{Eigen::VectorXf::Zero(result.points.cols()), {}};
         for (Eigen::Index j = 0; j < channel.moving.size(); ++j)
           component.weights[index.at({channel.moving.points(0, j), channel.moving.points(1, j),
                                       channel.moving.points(2, j)})] +=
               static_cast<float>(shares(j, q));
-        for (std::size_t n = 0; n < field.size(); ++n)
-          component.spectrum[n] *=
-              factor * terms.frequency_factors(channel.moving_transform, fields.frequency()[n])[q];
+        for (const Eigen::MatrixXd& of_offset : factors) {
+          HalfSpectrum& spectrum = component.spectra.emplace_back(field);
+          for (std::size_t n = 0; n < spectrum.size(); ++n)
+            spectrum[n] *= factor * of_offset(q, frequencies.of_mode[n]);
+        }
         result.parts.push_back(std::move(component));
       }
     }

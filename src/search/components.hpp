@@ -10,20 +10,30 @@
 
 #include "mortise/affinity/channel.hpp"
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/kernels/low_pass.hpp"
 
 namespace mortise {
 
-/// One real weight per moving point and the fixed spectrum it meets.
+/// Values at the modes of a grid: kx, ky from -floor(n/2), kz from 0 to n / 2; kz fastest.
+using HalfSpectrum = std::vector<std::complex<double>>;
+
+/// One real weight per moving point and, for each offset, the fixed spectrum it meets.
 struct Component {
-  Eigen::VectorXf weights;  ///< of each point of Components::points
-  /// Fixed body's field times both kernels, sampled at integer frequencies: kx, ky from
-  /// -floor(n/2), kz from 0; kz fastest.
-  std::vector<std::complex<double>> spectrum;
+  Eigen::VectorXf weights;            ///< of each point of Components::points
+  std::vector<HalfSpectrum> spectra;  ///< per offset: fixed body's field times both kernels
 };
 
 struct Components {
   Eigen::Matrix3Xd points;  ///< 3 x N: the distinct moving centres of all channels, input frame
   std::vector<Component> parts;
+};
+
+struct ComponentOptions {
+  double radius_tolerance = 3e-3;  ///< of the compressed radius (kernels/compressed_radius.hpp)
+  LowPass low_pass =
+      {};  ///< what the search will multiply by; only weighs the compression's errors
+  std::vector<double> offsets = {0.0};  ///< added to the moving radii
+  int threads = 0;
 };
 
 /// Every channel c gives up to two real products, Re Re and -Im Im of its weights, times as many
@@ -33,6 +43,6 @@ struct Components {
 [[nodiscard]] Components make_components(const std::vector<Channel>& channels,
                                          const RigidMotion& search_from_fixed,
                                          const std::array<int, 3>& size, double spacing,
-                                         int threads);
+                                         const ComponentOptions& options);
 
 }  // namespace mortise

@@ -30,6 +30,8 @@ void check_options(const SearchOptions& o) {
     refuse("per_rotation must be >= 1, got " + std::to_string(o.per_rotation));
   if (!(o.separation >= 0.0))
     refuse("separation must be >= 0, got " + std::to_string(o.separation));
+  if (!(o.radius_tolerance >= 1e-8 && o.radius_tolerance <= 0.1))
+    refuse("radius_tolerance must be in [1e-8, 0.1], got " + std::to_string(o.radius_tolerance));
   if (o.spread_width < 2 || o.spread_width > 8)
     refuse("spread_width must be 2 to 8, got " + std::to_string(o.spread_width));
 }
@@ -175,8 +177,10 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
     size[d] = good_fft_size(
         std::max(2 * options.spread_width, static_cast<int>(std::ceil(side / options.spacing))));
   }
-  impl_->components =
-      make_components(channels, impl_->search_from_fixed, size, options.spacing, options.threads);
+  impl_->components = make_components(channels, impl_->search_from_fixed, size, options.spacing,
+                                      {.radius_tolerance = options.radius_tolerance,
+                                       .low_pass = {.cutoff = options.cutoff},
+                                       .threads = options.threads});
   if (impl_->components.parts.empty())
     throw InputError("search: all weights of every channel are zero");
   impl_->components.points = impl_->search_from_moving * impl_->components.points;
@@ -194,7 +198,7 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
                                .norm();
           const std::size_t at =
               (static_cast<std::size_t>(kx + nx / 2) * ny + (ky + ny / 2)) * (nz / 2 + 1) + kz;
-          return part.spectrum[at] * hann(k, options.cutoff);
+          return part.spectra[0][at] * hann(k, options.cutoff);
         });
     part = {};
   }

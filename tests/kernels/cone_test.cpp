@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lifted cone's transform against a plain double integral, its series against the kernel, and
-// compressed radii.
+// The lifted cone's transform against a plain double integral, and its series against the
+// kernel.
 #include "mortise/kernels/cone.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/kernels/compressed_radius.hpp"
 
 namespace mortise {
 namespace {
@@ -91,32 +90,6 @@ TEST(ConeSeries, FittedConeGivesTheKernelOnItsRadii) {
       }
   EXPECT_LE(fitted_cone(RadialKernel(), 0.43, 1.4, 4.8, 1e-6).modes(), 20);
   EXPECT_THROW((void)fitted_cone(RadialKernel(), 0.43, 0.0, 4.8, 1e-6), InputError);
-}
-
-TEST(CompressedRadius, MeetsItsToleranceWithFewTerms) {
-  for (const RadialKernel& kernel : {RadialKernel(), RadialKernel(2.0)})
-    for (const double cutoff : {std::numeric_limits<double>::infinity(), 0.25})
-      for (const double tolerance : {1e-2, 1e-3, 1e-6, 1e-9}) {
-        const LowPass low_pass{.cutoff = cutoff, .pass = 0.0};
-        const CompressedRadius c =
-            compress_radius(kernel, 0.43, 1.4, 4.8, {.tolerance = tolerance, .low_pass = low_pass});
-        EXPECT_LE(c.measured_error(), tolerance);
-        double worst = 0.0;
-        for (double k = 0.0; k <= 0.43; k += 0.0137)
-          for (double r = 1.4; r <= 4.8; r += 0.0771)
-            worst = std::max(worst, std::abs(c.frequency_factors(k).dot(c.radius_factors(r)) -
-                                             low_pass(k) * kernel.transform(k, r)) /
-                                        kernel.volume(r));
-        EXPECT_LE(worst, 1.1 * tolerance) << "terms " << c.terms();
-      }
-}
-
-TEST(CompressedRadius, OneRadiusIsOneTermAndTypicalAtomsAreThree) {
-  EXPECT_EQ(compress_radius(RadialKernel(), 0.43, 1.8, 1.8, {.tolerance = 1e-12}).terms(), 1);
-  EXPECT_LE(compress_radius(RadialKernel(), 0.25, 1.4, 2.0, {.tolerance = 1e-3}).terms(), 3);
-  EXPECT_THROW((void)compress_radius(RadialKernel(), 0.43, 2.0, 1.8), InputError);
-  EXPECT_THROW((void)compress_radius(RadialKernel(), 0.43, 1.0, 1.8, {.tolerance = 0.0}),
-               InputError);
 }
 
 }  // namespace

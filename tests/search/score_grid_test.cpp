@@ -81,7 +81,8 @@ TEST(ScoreGrid, EqualsTheTruncatedSeriesTermByTerm) {
     for (const Accuracy& a : {Accuracy{4, 4e-3}, Accuracy{6, 1e-4}, Accuracy{8, 1.5e-5}}) {
       const std::vector<Channel> channels = channels_of(random, kind);
       const Eigen::Matrix4Xd rotations = random_rotations(random, 2);
-      const SearchOptions options{.spacing = 1.6, .cutoff = 0.16, .spread_width = a.width};
+      const SearchOptions options{
+          .spacing = 1.6, .cutoff = 0.16, .spread_width = a.width, .radius_tolerance = 1e-6};
       RotationSearch search(channels, rotations, options);
       const auto [nx, ny, nz] = search.grid_size();
       EXPECT_TRUE(nx != ny && ny != nz) << "the box is meant not to be a cube";

@@ -3,15 +3,12 @@
 /// A score channel: one additive radial pair score between two sets of knots, as data.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "mortise/core/knots.hpp"
+#include "mortise/kernels/radial_transform.hpp"
 
 namespace mortise {
-
-/// Fourier transform of one knot's radial field at |w| = k (cycles per length unit) for radius r.
-using RadialTransform = std::function<double(double k, double r)>;
 
 /// One term of the score of a placement t of the moving body:
 ///

@@ -16,8 +16,8 @@ namespace mortise {
 enum class LiftedForm {
   kDirect4d,    ///< the 4D sum term by term, then over the fourth frequency with the cone's series
   kNfft4d,      ///< the same with the 4D NFFT, as in the paper
-  kCompressed,  ///< a few 3D NFFTs per slice, phi^(k; r) ~ sum_q a_q(k) b_q(r); what the search
-                ///< runs
+  kCompressed,  ///< a few 3D NFFTs, phi^(k; r + r0) ~ sum_q a_q(k; r0) b_q(r), for all slices at
+                ///< once
 };
 
 struct LiftedOptions {

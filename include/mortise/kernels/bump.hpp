@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "mortise/kernels/radial_transform.hpp"
+
 namespace mortise {
 
 /// psi_alpha(x) = exp(1 / (1 - |x|^-alpha)) for |x| < 1, else 0 [SD, Eq. 10]; alpha > 0, infinity
@@ -35,5 +37,8 @@ class RadialKernel {
   double alpha_;
   std::vector<double> table_;  // Chebyshev coefficients of Psi, piece by piece; empty for balls
 };
+
+/// phi^(k; r) of a kernel as a function.
+[[nodiscard]] RadialTransform transform_of(const RadialKernel& kernel);
 
 }  // namespace mortise

@@ -26,7 +26,10 @@ struct SearchOptions {
   bool summits =
       false;  ///< keep local maxima of the score alone, none on the slope of a better one
   int spread_width = 4;  ///< grid cells per axis that a knot is spread over, 2 to 8
-  int threads = 0;       ///< 0 = all cores; never changes the result
+  double radius_tolerance =
+      3e-3;  ///< error allowed of a knot's transform where radii are many, relative to its largest
+             ///< value (kernels/compressed_radius.hpp); 1e-8 to 0.1. One radius has none
+  int threads = 0;  ///< 0 = all cores; never changes the result
 };
 
 /// One of the best translations at one rotation, search frame: a local maximum of the score, or the
