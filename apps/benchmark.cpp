@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise benchmark: docks a table of known complexes and counts successes.
+#include "mortise/runs/benchmark.hpp"
+
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,16 +18,14 @@
 #include <memory>
 #include <thread>
 
-#include "benchmark_table.hpp"
 #include "clock.hpp"
 #include "commands.hpp"
-#include "docking_job.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/version.hpp"
-#include "mortise/metrics/reference_complex.hpp"
 #include "mortise/report/pictures.hpp"
+#include "mortise/runs/run_kind.hpp"
 #include "mortise/store/atomic_file.hpp"
-#include "quality_summary.hpp"
+#include "option_flags.hpp"
 
 namespace mortise::app {
 namespace {
@@ -39,7 +39,7 @@ struct BenchmarkFlags {
   std::string output;
   std::string fold;
   std::vector<std::string> subset;
-  DockArguments arguments;
+  OptionFlags<DockOptions> options;
   std::uint64_t seed = 1;
   std::string runs;
   int jobs = 1;
@@ -53,17 +53,6 @@ std::string text_of(double value) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
-}
-
-std::string text_of(const std::optional<int>& rank) { return rank ? std::to_string(*rank) : ""; }
-
-// A start of its own for every pair, whatever else is in the table: FNV-1a of the name, mixed with
-// the seed.
-std::uint64_t pair_seed(std::uint64_t seed, const std::string& name) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : name + ":" + std::to_string(seed))
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
 }
 
 // "i/k": every k-th row from the i-th on.
@@ -92,62 +81,18 @@ std::vector<BenchmarkPair> chosen_pairs(const BenchmarkFlags& options) {
   return chosen;
 }
 
-ResultRow row_of(const BenchmarkPair& pair) {
-  ResultRow row;
-  row["name"] = pair.name;
-  row["difficulty"] = difficulty(pair.unbound_interface_rmsd);
-  row["unbound_interface_rmsd"] = text_of(pair.unbound_interface_rmsd);
-  return row;
-}
-
 // Docks and measures one pair. @throws Interrupted
-ResultRow dock_pair(const BenchmarkPair& pair, DockSettings settings, const BenchmarkFlags& options,
-                    const std::string& progress_label) {
-  const auto begin = Clock::now();
-  settings.random_start = pair_seed(options.seed, pair.name);
-  const DockBody fixed = read_dock_body(pair.fixed, settings.read);
-  const DockBody moving = read_dock_body(pair.moving, settings.read);
+ResultRow dock_pair(const BenchmarkPair& pair, const DockOptions& docking,
+                    const BenchmarkFlags& options, const std::string& progress_label) {
   CommonOptions common = options.common;
   common.quiet = common.quiet || options.jobs > 1;
-  SearchWatch watch;
+  RunWatch watch;
   watch.progress = make_progress(progress_label, common);
-  SearchResult result =
-      dock(fixed, moving, settings,
-           make_provenance(command_line(), settings_json(settings).dump(), *settings.random_start),
-           watch);
-  Run& run = result.run;
-  if (!run.complete) throw Interrupted(pair.name);
-  run.seconds = seconds_since(begin);
-
-  const ReferenceComplex reference(
-      fixed.molecule, moving.molecule,
-      read_molecule(parse_molecule_spec(pair.reference_fixed)).molecule,
-      read_molecule(parse_molecule_spec(pair.reference_moving)).molecule);
-  std::vector<RigidMotion> poses;
-  for (const Pose& pose : run.poses.poses) poses.push_back(pose.moving_in_fixed);
-  const std::vector<ComplexMetrics> metrics =
-      evaluate_poses(reference, poses, settings.options.threads);
-  set_metrics(run, metrics);
+  BenchmarkResult result = dock_known_pair(pair, docking, options.seed, command_line(), watch);
+  if (!result.run.complete) throw Interrupted(pair.name);
   if (!options.runs.empty())
-    write_run((fs::path(options.runs) / (pair.name + ".h5")).string(), run);
-
-  const QualitySummary summary = summarise(metrics);
-  ResultRow row = row_of(pair);
-  row["first_acceptable"] = text_of(summary.first_acceptable);
-  row["first_acceptable_by_rmsd"] = text_of(summary.first_acceptable_by_rmsd);
-  row["first_irmsd_2_5"] = text_of(summary.first_hit);
-  row["first_medium"] = text_of(summary.first_medium);
-  row["first_high"] = text_of(summary.first_high);
-  row["best_interface_rmsd"] = text_of(summary.best.interface_rmsd);
-  row["best_ligand_rmsd"] = text_of(summary.best.ligand_rmsd);
-  row["best_fnat"] = text_of(summary.best.fnat);
-  row["best_dockq"] = text_of(summary.best.dockq);
-  row["superposed_interface_rmsd"] =
-      text_of(reference.evaluate(reference.superposed_pose()).interface_rmsd);
-  row["rotations"] = std::to_string(run.rotations.done.size());
-  row["poses"] = std::to_string(poses.size());
-  row["seconds"] = text_of(run.seconds);
-  return row;
+    write_run((fs::path(options.runs) / (pair.name + ".h5")).string(), result.run);
+  return result.row;
 }
 
 // One pair at work in a process of its own: its memory and time are then its own, and whatever
@@ -157,7 +102,7 @@ struct Worker {
   int result = -1;  // read end of the pipe that its row comes through
 };
 
-std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockSettings& settings,
+std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockOptions& docking,
                                       const BenchmarkFlags& options,
                                       const std::string& progress_label) {
   int ends[2];
@@ -175,9 +120,9 @@ std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockSetti
   close(ends[0]);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   int code = getppid() == parent ? 0 : kInterruptedCode;
-  ResultRow row = row_of(pair);
+  ResultRow row = result_row(pair);
   try {
-    if (code == 0) row = dock_pair(pair, settings, options, progress_label);
+    if (code == 0) row = dock_pair(pair, docking, options, progress_label);
   } catch (const Interrupted&) {
     code = kInterruptedCode;
   } catch (const InputError& e) {
@@ -202,7 +147,7 @@ std::optional<ResultRow> collect(const Worker& worker, int status, const rusage&
     line.append(buffer, static_cast<std::size_t>(n));
   close(worker.result);
   if (WIFEXITED(status) && WEXITSTATUS(status) == kInterruptedCode) return {};
-  ResultRow row = row_of(worker.pair);
+  ResultRow row = result_row(worker.pair);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
     row = parse_result_row(line);
   else
@@ -232,7 +177,7 @@ void print_row(const ResultRow& row, const BenchmarkFlags& options) {
 
 // Docks the pairs, at most options.jobs at a time, and gives each row to `keep` as it comes. On
 // Ctrl-C the pairs at work are dropped.
-void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockSettings& settings,
+void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockOptions& docking,
                 const BenchmarkFlags& options, const std::function<void(const ResultRow&)>& keep) {
   std::map<pid_t, Worker> workers;
   std::size_t next = 0;
@@ -241,7 +186,7 @@ void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockSettings& set
     while (!interrupted() && next < pairs.size() &&
            workers.size() < static_cast<std::size_t>(options.jobs)) {
       workers.insert(start_worker(
-          pairs[next], settings, options,
+          pairs[next], docking, options,
           std::to_string(next + 1) + "/" + std::to_string(pairs.size()) + " " + pairs[next].name));
       ++next;
     }
@@ -303,13 +248,13 @@ Json success_json(const std::vector<SuccessCount>& counts) {
 
 void execute(BenchmarkFlags options) {
   install_interrupt_handler();  // pairs that are done are kept
-  DockSettings settings = resolve(options.arguments);
+  DockOptions docking = resolve(dock_kind(), options.options);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  settings.options.threads = options.common.threads;
+  docking.threads = options.common.threads;
   if (options.common.threads == 0 && options.jobs > 1)
-    settings.options.threads = std::max(1, cores / options.jobs);
+    docking.threads = std::max(1, cores / options.jobs);
   Json recorded = {{"mortise_version", kVersion}, {"seed", options.seed}};
-  recorded.update(settings_json(settings));
+  recorded.update(Json::parse(to_json(docking)));
   recorded.erase("random_start");  // each pair's own
   const std::string record = recorded.dump();
 
@@ -336,7 +281,7 @@ void execute(BenchmarkFlags options) {
     std::fprintf(stderr, "mortise: %zu of %zu pairs are in %s already\n",
                  pairs.size() - todo.size(), pairs.size(), options.output.c_str());
 
-  dock_pairs(todo, settings, options, [&](const ResultRow& row) {
+  dock_pairs(todo, docking, options, [&](const ResultRow& row) {
     rows.push_back(row);
     write_results(options.output, record, rows);
     print_row(row, options);
@@ -398,7 +343,7 @@ void add_benchmark(CLI::App& program) {
       ->check(CLI::Range(1, 1024));
   command.add_flag("--png", options->png, "Draw the success curves too: NAME_success.png");
   command.add_flag("--force", options->force, "Replace results of other options");
-  add_dock_options(command, options->arguments);
+  add_option_flags(command, dock_kind(), options->options);
   add_common_options(
       command, options->common,
       "  mortise benchmark pairs.csv -o results.csv\n"

@@ -13,11 +13,9 @@
 #include "commands.hpp"
 #include "mortise/collision/collider.hpp"
 #include "mortise/core/errors.hpp"
-#include "mortise/molecules/read_molecule.hpp"
-#include "mortise/molecules/to_knots.hpp"
-#include "mortise/parts/mesh_solid.hpp"
-#include "mortise/parts/read_part.hpp"
+#include "mortise/runs/body_forms.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/body.hpp"
 #include "output_guard.hpp"
 #include "pose_csv.hpp"
 
@@ -31,30 +29,16 @@ struct CollideFlags {
   CollisionBodyOptions body;
 };
 
-// By the file's name: what is not a molecule's is a part's.
-bool is_molecule(const std::string& text) {
-  std::string path = parse_molecule_spec(text).path;
-  for (const char* end :
-       {".pdb", ".ent", ".cif", ".mmcif", ".pdb.gz", ".ent.gz", ".cif.gz", ".mmcif.gz"}) {
-    const std::string suffix = end;
-    if (path.size() >= suffix.size() &&
-        path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0)
-      return true;
-  }
-  return false;
-}
-
-CollisionBody read_body(const std::string& text, CollideFlags options) {
-  if (is_molecule(text)) {
-    const ReadMoleculeResult read = read_molecule(parse_molecule_spec(text));
-    return {to_knots(read.molecule, {.radius = 0.0, .propensity = 0.0}), 0.0};
-  }
-  const ReadPartResult read = read_part(text);
+CollisionBody collision_body_of(const std::string& spec, CollideFlags options) {
+  const Body body = read_body(spec, {.threads = options.common.threads});
+  const Part* part = body.part();
+  if (part == nullptr)
+    return {body_knots(body, {.radius = 0.0, .propensity = 0.0}, options.body.grid), 0.0};
   if (!options.common.quiet)
-    for (const std::string& decision : read.decisions)
-      std::fprintf(stderr, "mortise: %s: %s\n", text.c_str(), decision.c_str());
-  options.body.deviation = read.deviation;  // of a STEP file's triangles from its surface
-  return collision_body(MeshSolid(read.mesh, {.threads = options.common.threads}), options.body);
+    for (const std::string& decision : body.decisions)
+      std::fprintf(stderr, "mortise: %s: %s\n", spec.c_str(), decision.c_str());
+  options.body.deviation = body.deviation;  // of a STEP file's triangles from its surface
+  return collision_body(*part->solid, options.body);
 }
 
 const char* name(Contact contact) {
@@ -80,13 +64,10 @@ void write_csv(const std::string& path, const std::vector<Collision>& answers) {
 }
 
 void check_files(const CollideFlags& options) {
-  if (is_molecule(options.fixed) != is_molecule(options.moving))
-    throw InputError("collide: expected two molecules or two parts, got \"" + options.fixed +
-                     "\" and \"" + options.moving + '"');
   if (options.output.empty()) return;
   std::vector<std::string> inputs = {options.poses};
   for (const std::string& input : {options.fixed, options.moving})
-    inputs.push_back(is_molecule(input) ? parse_molecule_spec(input).path : input);
+    inputs.push_back(body_path(input));
   check_output_file(options.output, inputs, true, "");
 }
 
@@ -111,8 +92,8 @@ void run(CollideFlags options) {
   options.collider.with_gap = true;
   check_files(options);
   const std::vector<RigidMotion> poses = read_pose_csv(options.poses);
-  const CollisionBody fixed = read_body(options.fixed, options),
-                      moving = read_body(options.moving, options);
+  const CollisionBody fixed = collision_body_of(options.fixed, options),
+                      moving = collision_body_of(options.moving, options);
   if (interrupted()) throw Interrupted("no answers were written");
   const Collider collider(fixed, moving, options.collider);
   const Clock::time_point start = Clock::now();
@@ -174,9 +155,11 @@ void add_collide(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "collide",
       "Say for each pose of a table whether two bodies collide, with gap value and gradient");
-  command->add_option("fixed", options->fixed, "Molecule (PDB, mmCIF) or part (mesh, STEP)")
+  command
+      ->add_option("fixed", options->fixed,
+                   "Molecule (PDB, mmCIF), part (mesh, STEP) or balls (.xyzr, decompose's file)")
       ->required();
-  command->add_option("moving", options->moving, "The body the poses move, of the same kind")
+  command->add_option("moving", options->moving, "The body the poses move, of any kind")
       ->required();
   command
       ->add_option("--poses", options->poses,
@@ -209,7 +192,7 @@ void add_collide(CLI::App& program) {
                      "bodies; \"band\" means\n"
                      "closer than the band that is printed. A truncated sum narrows it where the "
                      "trees were stopped.\n"
-                     "Of molecules the bodies are the atoms' balls, and answers are exact.\n");
+                     "Of molecules and balls the bodies are the balls, and answers are exact.\n");
   command->callback([options] { run(*options); });
 }
 

@@ -50,13 +50,13 @@ void add_assemble(CLI::App& program);
 void add_benchmark(CLI::App& program);
 void add_collide(CLI::App& program);
 void add_decompose(CLI::App& program);
-void add_decompose(CLI::App& program);
 void add_dock(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_export(CLI::App& program);
 void add_info(CLI::App& program);
 void add_mate(CLI::App& program);
 void add_report(CLI::App& program);
+void add_rescore(CLI::App& program);
 void add_rotations(CLI::App& program);
 
 }  // namespace mortise::app

@@ -6,13 +6,15 @@
 #include "commands.hpp"
 #include "evaluate_parts.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/metrics/quality_summary.hpp"
 #include "mortise/metrics/reference_complex.hpp"
 #include "mortise/molecules/read_molecule.hpp"
 #include "mortise/report/interface_columns.hpp"
+#include "mortise/runs/quality_columns.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/body.hpp"
 #include "mortise/store/inputs.hpp"
 #include "pose_table.hpp"
-#include "quality_summary.hpp"
 
 namespace mortise::app {
 namespace {
@@ -68,9 +70,22 @@ void print_summary(const Run& run, const ReferenceSummary& reference,
   std::printf("\n%s", pose_table(run, 10).c_str());
 }
 
+Json to_json(const QualitySummary& summary) {
+  const auto rank = [](const std::optional<int>& value) { return value ? Json(*value) : Json(); };
+  return {{"first_acceptable", rank(summary.first_acceptable)},
+          {"first_medium", rank(summary.first_medium)},
+          {"first_high", rank(summary.first_high)},
+          {"first_irmsd_2_5", rank(summary.first_hit)},
+          {"first_within_2_percent", nullptr},  // of parts
+          {"first_acceptable_by_rmsd", rank(summary.first_acceptable_by_rmsd)},
+          {"best_interface_rmsd", summary.best.interface_rmsd},
+          {"best_ligand_rmsd", summary.best.ligand_rmsd},
+          {"best_fnat", summary.best.fnat},
+          {"best_dockq", summary.best.dockq}};
+}
+
 // An option that does nothing for this kind of run is a misunderstanding.
-void refuse_options(const std::string& kind, const EvaluateFlags& options) {
-  const bool parts = kind == "mate";
+void refuse_options(bool parts, const std::string& kind, const EvaluateFlags& options) {
   const std::pair<const char*, bool> given[] = {
       {"--reference-fixed", parts && !options.reference_fixed.empty()},
       {"--reference-moving", parts && !options.reference_moving.empty()},
@@ -86,23 +101,24 @@ void refuse_options(const std::string& kind, const EvaluateFlags& options) {
 
 void execute(const EvaluateFlags& options) {
   Run run = read_run(options.run);
-  if (run.kind == "mate") {
+  if (!of_molecules(run)) {
     if (options.reference_pose.empty())
       throw InputError("evaluate: a run of parts needs --reference-pose");
-    refuse_options(run.kind, options);
+    refuse_options(true, run.kind, options);
     evaluate_parts(options.run, options.reference_pose, options.pair,
                    {options.moving_path, options.force}, options.common);
     return;
   }
   if (options.reference_fixed.empty() || options.reference_moving.empty())
     throw InputError("evaluate: a docking needs --reference-fixed and --reference-moving");
-  refuse_options(run.kind, options);
+  refuse_options(false, run.kind, options);
   if (run.poses.poses.empty()) throw InputError("evaluate: " + options.run + " holds no poses yet");
   check_writable(options.run);
-  const Molecule fixed =
-      read_input_molecule(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force});
-  const Molecule moving = read_input_molecule(run.moving, run.provenance, "moving",
-                                              {options.moving_path, options.force});
+  const auto molecule = [&](const BodyRecord& record, const char* name, const std::string& path) {
+    return *read_input_body(record, run.provenance, name, {path, options.force}).molecule();
+  };
+  const Molecule fixed = molecule(run.fixed, "fixed", options.fixed_path);
+  const Molecule moving = molecule(run.moving, "moving", options.moving_path);
   const ReferenceComplex reference(
       fixed, moving, read_molecule(parse_molecule_spec(options.reference_fixed)).molecule,
       read_molecule(parse_molecule_spec(options.reference_moving)).molecule);
@@ -112,7 +128,7 @@ void execute(const EvaluateFlags& options) {
   const std::vector<ComplexMetrics> metrics =
       evaluate_poses(reference, poses, options.common.threads);
   const ComplexMetrics superposed = reference.evaluate(reference.superposed_pose());
-  set_metrics(run, metrics);
+  set_quality_columns(run, metrics);
   if (options.interfaces > 0)
     set_metric_columns(
         run,

@@ -13,6 +13,7 @@
 #include "mortise/metrics/true_mates.hpp"
 #include "mortise/report/interface_columns.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/body.hpp"
 #include "pose_table.hpp"
 
 namespace mortise::app {
@@ -41,8 +42,8 @@ void evaluate_parts(const std::string& run_path, const std::string& truth, const
   TrueMate mate =
       find_true_mate(read_true_mates(truth), stem_of(run.fixed), stem_of(run.moving), pair);
   if (mate.name.empty()) mate.name = stem_of(run.fixed) + " " + stem_of(run.moving);
-  const Placement placement(read_input_part(run.moving, run.provenance, "moving", moving).mesh,
-                            mate);
+  const Placement placement(
+      body_mesh(read_input_body(run.moving, run.provenance, "moving", moving)), mate);
   const std::size_t count = run.poses.poses.size();
   MetricColumn largest{"placement_largest", std::vector<double>(count)};
   MetricColumn rms{"placement_rms", std::vector<double>(count)};

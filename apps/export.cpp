@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/body.hpp"
 #include "mortise/store/inputs.hpp"
 #include "output_guard.hpp"
 
@@ -65,8 +66,6 @@ std::vector<std::string> files_of_parts(const Run& run, ExportFormat format,
 // Writes one file for each placement; gives the text where `files` is stdout's "-".
 std::string export_parts(const Run& run, ExportFormat format, const ExportFlags& options,
                          const std::vector<std::string>& files) {
-  if (run.kind != "mate")
-    throw InputError("format " + options.format + " is for parts; this is a " + run.kind + " run");
   const ExportParts parts = read_export_parts(run, {options.fixed_path, options.force},
                                               {options.moving_path, options.force}, options.choice);
   const std::vector<std::size_t> poses = chosen_poses(run, format, options.choice);
@@ -97,15 +96,17 @@ std::string export_text(const Run& run, ExportFormat format, const ExportFlags& 
       break;
   }
   (void)chosen_poses(run, format, options.choice);  // fail before the molecules are read
-  if (run.kind != "dock")
+  if (!of_molecules(run))
     throw InputError("format " + options.format + " is for molecules; this is a " + run.kind +
-                     " run");
+                     " run of other bodies");
   Molecule fixed;
   if (options.choice.complex)
-    fixed = read_input_molecule(run.fixed, run.provenance, "fixed",
-                                {options.fixed_path, options.force});
-  const Molecule moving = read_input_molecule(run.moving, run.provenance, "moving",
-                                              {options.moving_path, options.force});
+    fixed =
+        *read_input_body(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force})
+             .molecule();
+  const Molecule moving =
+      *read_input_body(run.moving, run.provenance, "moving", {options.moving_path, options.force})
+           .molecule();
   return format == ExportFormat::kPdb ? export_pdb(run, fixed, moving, options.choice)
                                       : export_mmcif(run, fixed, moving, options.choice);
 }

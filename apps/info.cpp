@@ -54,7 +54,8 @@ Json knots_json(const Knots& knots) {
 }
 
 Json body_json(const BodyRecord& body) {
-  return {{"path", body.path},
+  return {{"kind", body.kind},
+          {"path", body.path},
           {"spec", body.spec},
           {"sha256", body.sha256},
           {"knots", knots_json(body.knots)}};
@@ -91,7 +92,7 @@ Json describe_run(const Run& run) {
                      {"channels", run.poses.channel_names},
                      {"metrics", metrics},
                      {"best", best}};
-  if (run.checkpoint) result["checkpoint_candidates"] = run.checkpoint->score.size();
+  result["candidates"] = run.candidates.size();
   return result;
 }
 
@@ -220,8 +221,7 @@ void print_run(const std::string& file, const Json& all) {
   line("rotations", rotations["done"].dump() + " of " + rotations["count"].dump() +
                         " done, covering radius " +
                         number(rotations["covering_radius_degrees"], "%.2f") + " degrees");
-  if (all.contains("checkpoint_candidates"))
-    line("checkpoint", all["checkpoint_candidates"].dump() + " candidates");
+  line("searched", all["candidates"].dump() + " candidates, kept to rank anew (mortise rescore)");
   const Json& poses = all["poses"];
   line("poses", poses["count"].dump());
   line("channels", names_text(poses["channels"]));

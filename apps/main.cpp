@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   mortise::app::add_info(program);
   mortise::app::add_report(program);
   mortise::app::add_mate(program);
+  mortise::app::add_rescore(program);
   mortise::app::add_rotations(program);
   program.footer(
       "Exit codes: 0 done; 1 the input or the options are at fault; 2 internal error;\n"

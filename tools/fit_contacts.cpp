@@ -154,9 +154,7 @@ Choice sample_pair(const std::vector<std::string>& row, const std::string& folde
   dock.potential = potential_file;
   dock.poses = dock.rotations * dock.search.per_rotation;  // all of them, best first
   dock.cluster_radius = 0.0;
-  Docking docking(fixed, moving, dock);
-  docking.search().run();
-  const PoseList poses = docking.rank();
+  const PoseList poses = mortise::dock(fixed, moving, dock).poses;
   const double shape_unit =
       rescore ? (potential_file.empty() ? fitted_contact_potential()
                                         : read_contact_potential(potential_file, kContactTypes))

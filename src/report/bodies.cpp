@@ -8,6 +8,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
+#include "mortise/store/body.hpp"
 #include "report/heavy_atoms.hpp"
 
 namespace mortise {
@@ -112,20 +113,18 @@ std::string find_body(const BodyRecord& body, const Provenance& provenance, cons
   }
 }
 
-ReportBody read_body(const BodyRecord& body, const Provenance& provenance, const std::string& name,
-                     const std::string& kind, const std::string& found, bool force) {
+// Two molecules are shown as such; of any other pair both are surfaces.
+ReportBody read_report_body(const BodyRecord& record, const Provenance& provenance,
+                            const std::string& name, bool molecules, const std::string& found,
+                            bool force) {
+  const Body body = read_input_body(record, provenance, name, {found, force});
   ReportBody read;
   read.found = found;
-  if (kind == "mate") {
-    ReadPartResult part = read_input_part(body, provenance, name, {found, force});
-    read.mesh = std::move(part.mesh);
-    read.unit = part.unit;
-  } else if (kind == "dock") {
-    read.molecule = read_input_molecule(body, provenance, name, {found, force});
-    read.unit = "angstrom";
-  } else {
-    throw InputError("report: expected a docking or a mating run, got a " + kind + " run");
-  }
+  read.unit = body.record.unit;
+  if (molecules)
+    read.molecule = *body.molecule();
+  else
+    read.mesh = body_mesh(body);
   return read;
 }
 
@@ -156,7 +155,7 @@ ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places) {
       missing.stand_in = record.knots.points.topRows<3>();
       return missing;
     }
-    return read_body(record, run.provenance, name, run.kind, found, place.force);
+    return read_report_body(record, run.provenance, name, of_molecules(run), found, place.force);
   };
   bodies.fixed = read(run.fixed, "fixed", places.fixed);
   bodies.moving = read(run.moving, "moving", places.moving);

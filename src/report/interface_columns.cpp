@@ -50,15 +50,4 @@ std::vector<MetricColumn> interface_columns(const MolecularInterface& interface,
   return interface_columns(describe_poses(interface, motions, threads), chosen, poses.poses.size());
 }
 
-void set_metric_columns(Run& run, std::vector<MetricColumn> columns) {
-  for (MetricColumn& column : columns) {
-    const auto old = std::find_if(run.metrics.begin(), run.metrics.end(),
-                                  [&](const MetricColumn& c) { return c.name == column.name; });
-    if (old != run.metrics.end())
-      *old = std::move(column);
-    else
-      run.metrics.push_back(std::move(column));
-  }
-}
-
 }  // namespace mortise

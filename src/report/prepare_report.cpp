@@ -6,6 +6,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/report/interface_columns.hpp"
 #include "mortise/report/write_report.hpp"
+#include "mortise/search/candidate.hpp"
 
 namespace mortise {
 namespace {
@@ -14,30 +15,24 @@ constexpr std::size_t kProvisionalPoses = 2000;
 
 // The best raw candidates of an unfinished search, in input frames.
 PoseList provisional_poses(const Run& run) {
-  const Checkpoint& c = *run.checkpoint;
-  std::vector<std::size_t> order(c.score.size());
+  std::vector<std::size_t> order(run.candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t count = std::min(kProvisionalPoses, order.size());
+  const auto score = [&](std::size_t i) { return run.candidates[i].score; };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](std::size_t a, std::size_t b) {
-                      return c.score[a] != c.score[b] ? c.score[a] > c.score[b] : a < b;
+                      return score(a) != score(b) ? score(a) > score(b) : a < b;
                     });
   PoseList list;
-  list.channel_names = c.channel_names;
-  const RigidMotion fixed_from_search = inverse(run.fixed.search_from_input);
+  const CandidateFrames frames{run.rotations.quaternions, run.fixed.search_from_input,
+                               run.moving.search_from_input};
   for (std::size_t k = 0; k < count; ++k) {
-    const auto i = static_cast<Eigen::Index>(order[k]);
-    const std::int32_t rotation = c.rotation_index[order[k]];
-    const Eigen::Vector4d q = run.rotations.quaternions.col(rotation);
-    const RigidMotion searched = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), c.translation.col(i)};
+    const Candidate& c = run.candidates[order[k]];
     Pose pose;
-    pose.moving_in_fixed =
-        compose(compose(fixed_from_search, searched), run.moving.search_from_input);
+    pose.moving_in_fixed = candidate_motion(c, frames);
     pose.moving_in_fixed.rotation = canonical(pose.moving_in_fixed.rotation);
-    pose.score = c.score[order[k]];
-    for (Eigen::Index channel = 0; channel < c.channels.rows(); ++channel)
-      pose.channels.push_back(c.channels(channel, i));
-    pose.rotation_index = rotation;
+    pose.score = c.score;
+    pose.rotation_index = c.rotation_index;
     list.poses.push_back(pose);
   }
   return list;
@@ -59,7 +54,7 @@ PreparedReport prepare_report(const Run& run, const ReportBodies& bodies,
                      std::to_string(options.part_triangles));
   PreparedReport prepared = {run, {}};
   Run& shown = prepared.run;
-  if (shown.poses.poses.empty() && !shown.complete && shown.checkpoint) {
+  if (shown.poses.poses.empty() && !shown.complete) {
     shown.poses = provisional_poses(shown);
     shown.metrics.clear();
   }

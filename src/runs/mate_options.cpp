@@ -1,11 +1,106 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presets of mating and its options as JSON.
-#include <nlohmann/json.hpp>
+// The table of mating options and its presets.
+#include <cstdio>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/runs/mate.hpp"
+#include "runs/option_table.hpp"
+#include "runs/seed_option.hpp"
 
 namespace mortise {
+namespace {
+
+using Row = OptionRow<MateOptions>;
+using O = MateOptions;
+constexpr auto kReading = OptionScope::kReading;
+constexpr auto kSearch = OptionScope::kSearch;
+constexpr auto kRanking = OptionScope::kRanking;
+
+std::string print_axis(const O& o) {
+  if (!o.axis) return "none";
+  const auto vector = [](const Eigen::Vector3d& v) {
+    return short_number(v[0]) + "," + short_number(v[1]) + "," + short_number(v[2]);
+  };
+  return vector(o.axis->fixed) + ":" + vector(o.axis->moving);
+}
+
+void parse_axis(O& o, const std::string& text) {
+  o.axis.reset();
+  if (text == "none") return;
+  MateAxis axis;
+  char rest = 0;
+  const int read =
+      std::sscanf(text.c_str(), "%lf,%lf,%lf:%lf,%lf,%lf%c", &axis.fixed[0], &axis.fixed[1],
+                  &axis.fixed[2], &axis.moving[0], &axis.moving[1], &axis.moving[2], &rest);
+  if (read != 6)
+    throw InputError("axis: expected X,Y,Z:X,Y,Z (of the fixed part, of the moving part), got \"" +
+                     text + "\"");
+  o.axis = axis;
+}
+
+constexpr Row kRows[] = {
+    {"rotations", kSearch, "Rotations searched; with --axis turns for each way round",
+     Row::Integer([](O& o) -> int& { return o.rotations; }), 1.0},
+    {"axis", kSearch,
+     "Lay the moving part's axis along the fixed part's, either way round, and turn about it only: "
+     "X,Y,Z:X,Y,Z in the parts' own frames",
+     TextForm<O>{print_axis, parse_axis}},
+    {"aligned", kSearch, "Most rotations added that lay flat faces against each other",
+     Row::Integer([](O& o) -> int& { return o.aligned; }), 0.0},
+    {"turns", kSearch, "Turns added about each pair of axes of turned faces",
+     Row::Integer([](O& o) -> int& { return o.turns; }), 0.0},
+    {"spacing", kSearch, "Grid step of the search",
+     Row::Real([](O& o) -> double& { return o.spacing; }), 0.0, 10.0, true},
+    {"most_cells", kSearch,
+     "About the most grid cells searched; beyond it spacing and skin grow; not a length",
+     Row::Real([](O& o) -> double& { return o.most_cells; }), 0.0, 1e9, true},
+    {"per_rotation", kSearch, "Best translations kept at each rotation",
+     Row::Integer([](O& o) -> int& { return o.per_rotation; }), 1.0, 1000.0},
+    {"separation", kSearch, "Least distance between translations kept at one rotation",
+     Row::Real([](O& o) -> double& { return o.separation; }), 0.0, 10.0},
+    {"skin", kSearch, "Thickness of the double skin",
+     Row::Real([](O& o) -> double& { return o.skin; }), 0.0, 10.0, true},
+    {"penalty", kSearch, "What the core weighs against the skin; not a length",
+     Row::Real([](O& o) -> double& { return o.penalty; }), 1.0, 1e6, true},
+    {"feature", kSearch, "Emphasis on tips and hollows over flat faces; not a length",
+     Row::Real([](O& o) -> double& { return o.feature; }), 0.0, 100.0},
+    {"skeletal", kSearch,
+     "Weight of the parts' skeletal densities as a second channel; not a length",
+     Row::Real([](O& o) -> double& { return o.skeletal; }), 0.0, 1e6},
+    {"distance_spacing", kRanking, "Grid step of the parts' distances, for judging contact",
+     Row::Real([](O& o) -> double& { return o.distance_spacing; }), 0.0, 10.0, true},
+    {"tolerance", kRanking, "Distance up to which surfaces count as in contact",
+     Row::Real([](O& o) -> double& { return o.tolerance; }), 0.0, 10.0, true},
+    {"one_sided_weight", kRanking,
+     "What contact that pushes one way counts where other contact holds; not a length",
+     Row::Real([](O& o) -> double& { return o.one_sided_weight; }), 0.0, 1.0},
+    {"penetration_weight", kRanking, "What penetration costs against contact; not a length",
+     Row::Real([](O& o) -> double& { return o.penetration_weight; }), 0.0, 1e6},
+    {"samples", kRanking, "Points on the smaller part's surface",
+     Row::Integer([](O& o) -> int& { return o.samples; }), 100.0, 1e7},
+    {"polished", kRanking, "Placements polished to the end",
+     Row::Integer([](O& o) -> int& { return o.polished; }), 1.0, 1e6},
+    {"poses", kRanking, "Poses reported", Row::Integer([](O& o) -> int& { return o.poses; }), 1.0},
+    {"cluster_radius", kRanking,
+     "Drop placements whose RMSD to a better one is below this; 0 = keep all",
+     Row::Real([](O& o) -> double& { return o.cluster_radius; }), 0.0, 10.0},
+    {"check", kRanking, "Best poses whose contact is measured exactly",
+     Row::Integer([](O& o) -> int& { return o.check; }), 0.0},
+    {"deviation", kReading,
+     "Deviation of a STEP file's tessellation, length unit of the file; 0 = its diagonal times "
+     "0.0005",
+     Row::Real([](O& o) -> double& { return o.deviation; }), 0.0},
+    {"allow_open", kReading, "Accept parts that cannot be closed; inside goes by winding number",
+     Row::Switch([](O& o) -> bool& { return o.allow_open; })},
+    {"random_start", kReading,
+     "Move the moving part at random first, by this seed: for tests on parts that already sit "
+     "right",
+     seed_form<O>()},
+};
+
+}  // namespace
+
+std::span<const OptionRow<MateOptions>> mate_option_rows() { return kRows; }
 
 MateOptions mate_preset(const std::string& name) {
   MateOptions options;
@@ -22,34 +117,12 @@ MateOptions mate_preset(const std::string& name) {
   throw InputError("preset '" + name + "' is not one of fast, default, thorough");
 }
 
-std::string to_json(const MateOptions& o) {
-  const auto vector = [](const Eigen::Vector3d& v) {
-    return nlohmann::ordered_json{v[0], v[1], v[2]};
-  };
-  nlohmann::ordered_json json = {
-      {"rotations", o.rotations},
-      {"aligned", o.aligned},
-      {"turns", o.turns},
-      {"axis", nullptr},
-      {"spacing", o.spacing},
-      {"most_cells", o.most_cells},
-      {"per_rotation", o.per_rotation},
-      {"separation", o.separation},
-      {"skin", o.skin},
-      {"penalty", o.penalty},
-      {"feature", o.feature},
-      {"skeletal", o.skeletal},
-      {"detail", o.detail},
-      {"tolerance", o.tolerance},
-      {"flat", o.flat},
-      {"overlap", o.overlap},
-      {"samples", o.samples},
-      {"polished", o.polished},
-      {"poses", o.poses},
-      {"cluster_radius", o.cluster_radius},
-  };
-  if (o.axis) json["axis"] = {{"fixed", vector(o.axis->fixed)}, {"moving", vector(o.axis->moving)}};
-  return json.dump();
+std::string to_json(const MateOptions& options) {
+  return options_json(mate_option_rows(), options).dump();
+}
+
+MateOptions parse_mate_options(const std::string& json) {
+  return parse_options(mate_option_rows(), json);
 }
 
 }  // namespace mortise

@@ -276,12 +276,8 @@ const RigidMotion& RotationSearch::search_from_fixed() const { return impl_->sea
 const RigidMotion& RotationSearch::search_from_moving() const { return impl_->search_from_moving; }
 
 RigidMotion RotationSearch::moving_in_fixed(const Candidate& candidate) const {
-  const Eigen::Index i = candidate.rotation_index;
-  const RigidMotion placed{Eigen::Quaterniond(impl_->rotations(0, i), impl_->rotations(1, i),
-                                              impl_->rotations(2, i), impl_->rotations(3, i)),
-                           Eigen::Vector3d(candidate.translation[0], candidate.translation[1],
-                                           candidate.translation[2])};
-  return compose(inverse(impl_->search_from_fixed), compose(placed, impl_->search_from_moving));
+  return candidate_motion(candidate,
+                          {impl_->rotations, impl_->search_from_fixed, impl_->search_from_moving});
 }
 
 const std::array<int, 3>& RotationSearch::grid_size() const { return impl_->correlator->size(); }

@@ -8,8 +8,9 @@ namespace mortise {
 namespace {
 
 void expect_parts(const Run& run) {
-  if (run.kind != "mate")
-    throw InputError("formats stl, ply and step are for parts; this is a " + run.kind + " run");
+  if (of_molecules(run))
+    throw InputError("formats stl, ply and step are for parts; this is a " + run.kind +
+                     " run of molecules");
 }
 
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
@@ -27,9 +28,15 @@ ExportParts read_export_parts(const Run& run, const LocateOptions& fixed,
                               const LocateOptions& moving, const ExportOptions& options) {
   expect_parts(run);
   ExportParts parts;
-  if (options.complex) parts.fixed = read_input_part(run.fixed, run.provenance, "fixed", fixed);
+  if (options.complex) {
+    const Body body = read_input_body(run.fixed, run.provenance, "fixed", fixed);
+    parts.fixed = body_mesh(body);
+    parts.fixed_unit = body.record.unit;
+  }
   parts.moving_path = locate_input(run.moving, run.provenance, "moving", moving);
-  parts.moving = read_input_part(run.moving, run.provenance, "moving", moving);
+  const Body body = read_input_body(run.moving, run.provenance, "moving", moving);
+  parts.moving = body_mesh(body);
+  parts.moving_unit = body.record.unit;
   return parts;
 }
 
@@ -40,17 +47,18 @@ std::string export_part(const Run& run, ExportFormat format, std::size_t pose,
     throw InputError("export: pose " + std::to_string(pose + 1) + ": the run holds " +
                      std::to_string(run.poses.poses.size()) + " poses");
   const RigidMotion& motion = run.poses.poses[pose].moving_in_fixed;
-  if (format == ExportFormat::kStep && !options.complex && is_step_file(parts.moving_path))
+  if (format == ExportFormat::kStep && !options.complex && run.moving.kind == "part" &&
+      is_step_file(parts.moving_path))
     return format_moved_step(parts.moving_path, motion);
-  TriangleMesh placed = parts.moving.mesh;
+  TriangleMesh placed = parts.moving;
   placed.vertices = motion * placed.vertices;
-  std::string unit = parts.moving.unit;
+  std::string unit = parts.moving_unit;
   if (options.complex) {
-    const std::string& other = parts.fixed.unit;
+    const std::string& other = parts.fixed_unit;
     if (!unit.empty() && !other.empty() && unit != other)
       throw InputError("export: the fixed part is in " + other + ", the moving one in " + unit);
     if (unit.empty()) unit = other;
-    placed = join(parts.fixed.mesh, placed);
+    placed = join(parts.fixed, placed);
   }
   switch (format) {
     case ExportFormat::kStl:
@@ -58,7 +66,7 @@ std::string export_part(const Run& run, ExportFormat format, std::size_t pose,
     case ExportFormat::kPly:
       return format_ply(placed);
     case ExportFormat::kStep:
-      return format_step(placed, {}, unit.empty() ? "mm" : unit);
+      return format_step(placed, {}, unit.empty() || unit == "angstrom" ? "mm" : unit);
     default:
       throw InputError("export: expected stl, ply or step for parts");
   }

@@ -13,9 +13,9 @@ namespace mortise {
 namespace {
 
 void refuse_parts(const Run& run, const char* format) {
-  if (run.kind != "dock")
+  if (!of_molecules(run))
     throw InputError(std::string("format ") + format + " is for molecules; this is a " + run.kind +
-                     " run");
+                     " run of other bodies");
 }
 
 // What a reader should know of the file, one line each, for REMARKs or comments.

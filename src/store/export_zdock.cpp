@@ -49,8 +49,9 @@ void check_name(const BodyRecord& body, const char* name) {
 }  // namespace
 
 std::string export_zdock(const Run& run, const ExportOptions& options) {
-  if (run.kind != "dock")
-    throw InputError("format zdock is for molecules; this is a " + run.kind + " run");
+  if (!of_molecules(run))
+    throw InputError("format zdock is for molecules; this is a " + run.kind +
+                     " run of other bodies");
   check_name(run.fixed, "fixed");
   check_name(run.moving, "moving");
   const std::vector<std::size_t> poses = chosen_poses(run, ExportFormat::kZdock, options);

@@ -160,6 +160,10 @@ void Writer::array(const std::string& name, const Shape& shape, const double* da
   array(name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data);
 }
 
+void Writer::array(const std::string& name, const Shape& shape, const float* data) {
+  array(name, shape, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, data);
+}
+
 void Writer::array(const std::string& name, const Shape& shape, const std::int32_t* data) {
   array(name, shape, H5T_STD_I32LE, H5T_NATIVE_INT32, data);
 }
@@ -356,6 +360,10 @@ std::vector<T> Reader::numbers(const std::string& name, const Shape& expected, h
 
 std::vector<double> Reader::reals(const std::string& name, const Shape& expected) const {
   return numbers<double>(name, expected, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<float> Reader::floats(const std::string& name, const Shape& expected) const {
+  return numbers<float>(name, expected, H5T_NATIVE_FLOAT);
 }
 
 std::vector<std::int32_t> Reader::integers(const std::string& name, const Shape& expected) const {

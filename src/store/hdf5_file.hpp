@@ -63,6 +63,7 @@ class Writer {
   void attribute(const std::string& object, const std::string& name, std::uint64_t value);
   /// Row-major data, compressed; the shape may hold zeros.
   void array(const std::string& name, const Shape& shape, const double* data);
+  void array(const std::string& name, const Shape& shape, const float* data);
   void array(const std::string& name, const Shape& shape, const std::int32_t* data);
   void array(const std::string& name, const Shape& shape, const std::uint8_t* data);
   /// The finished file.
@@ -98,6 +99,7 @@ class Reader {
   [[nodiscard]] Shape shape(const std::string& name) const;
   /// The array's numbers, row-major; its shape must be the one expected.
   [[nodiscard]] std::vector<double> reals(const std::string& name, const Shape& expected) const;
+  [[nodiscard]] std::vector<float> floats(const std::string& name, const Shape& expected) const;
   [[nodiscard]] std::vector<std::int32_t> integers(const std::string& name,
                                                    const Shape& expected) const;
   [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& name,

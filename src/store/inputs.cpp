@@ -3,11 +3,9 @@
 #include "mortise/store/inputs.hpp"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/molecules/read_molecule.hpp"
 
 namespace mortise {
 
@@ -41,31 +39,6 @@ std::string locate_input(const BodyRecord& body, const Provenance& provenance,
                                  changed_sum.substr(0, 12) + "... (--force accepts it)");
   throw FileError(places.front().string(), "the run's " + name + " input is not there (--" + name +
                                                " PATH says where it is now)");
-}
-
-Molecule read_input_molecule(const BodyRecord& body, const Provenance& provenance,
-                             const std::string& name, const LocateOptions& options) {
-  const std::string path = locate_input(body, provenance, name, options);
-  MoleculeSpec spec;
-  if (body.spec.compare(0, body.path.size(), body.path) == 0)
-    // The suffix says model and chains; its own file name is spared from being looked up where it
-    // no longer is.
-    spec = parse_molecule_spec("mortise-input.pdb" + body.spec.substr(body.path.size()));
-  else
-    spec = parse_molecule_spec(body.spec);
-  spec.path = path;
-  return read_molecule(spec, {.keep_hydrogens = true}).molecule;
-}
-
-ReadPartResult read_input_part(const BodyRecord& body, const Provenance& provenance,
-                               const std::string& name, const LocateOptions& options) {
-  // What a run could use can be used again, whatever else a later program knows of its options.
-  ReadPartOptions read{.repair = {.allow_open = true, .find_self_intersections = false}};
-  const nlohmann::json recorded =
-      nlohmann::json::parse(provenance.options_json, nullptr, /*allow_exceptions=*/false);
-  if (recorded.is_object() && recorded.contains("deviation") && recorded["deviation"].is_number())
-    read.absolute_deviation = recorded["deviation"].get<double>();
-  return read_part(locate_input(body, provenance, name, options), read);
 }
 
 }  // namespace mortise

@@ -2,6 +2,7 @@
 // The run file: what lies where in it. The layout is described in docs/formats.md.
 #include "mortise/store/run_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mortise/core/errors.hpp"
@@ -32,6 +33,7 @@ void write_body(Writer& file, const std::string& group, const BodyRecord& body) 
   file.attribute(group, "path", body.path);
   file.attribute(group, "spec", body.spec);
   file.attribute(group, "sha256", body.sha256);
+  file.attribute(group, "kind", body.kind);
   if (!body.unit.empty()) file.attribute(group, "unit", body.unit);
   hdf5::write_knots(file, group, body.knots);
   const Eigen::Quaterniond& q = body.search_from_input.rotation;
@@ -45,6 +47,7 @@ BodyRecord read_body(const Reader& file, const std::string& group) {
   body.path = file.text(group, "path");
   body.spec = file.text(group, "spec");
   body.sha256 = file.text(group, "sha256");
+  body.kind = file.text(group, "kind");
   if (file.has_attribute(group, "unit")) body.unit = file.text(group, "unit");
   body.knots = hdf5::read_knots(file, group);
   const std::vector<double> q = file.reals(group + "/search_rotation", {4});
@@ -115,41 +118,37 @@ void read_poses(const Reader& file, Run& run) {
     run.metrics.push_back({name, file.reals("/poses/metrics/" + name, {n})});
 }
 
-void write_checkpoint(Writer& file, const Checkpoint& checkpoint) {
-  const hsize_t n = checkpoint.score.size();
-  file.group("/checkpoint");
-  file.array("/checkpoint/rotation_index", {n}, checkpoint.rotation_index.data());
-  file.array("/checkpoint/score", {n}, checkpoint.score.data());
-  file.array("/checkpoint/translation", {n, 3}, checkpoint.translation.data());
-  file.group("/checkpoint/channels");
-  for (std::size_t c = 0; c < checkpoint.channel_names.size(); ++c) {
-    const Eigen::VectorXd column = checkpoint.channels.row(static_cast<Eigen::Index>(c));
-    file.array("/checkpoint/channels/" + checkpoint.channel_names[c], {n}, column.data());
+// Single precision, as the search has them: 16 bytes a candidate before compression.
+void write_candidates(Writer& file, const std::vector<Candidate>& candidates) {
+  const hsize_t n = candidates.size();
+  std::vector<std::int32_t> rotation_index;
+  std::vector<float> score, translation;
+  for (const Candidate& c : candidates) {
+    rotation_index.push_back(c.rotation_index);
+    score.push_back(c.score);
+    translation.insert(translation.end(), c.translation.begin(), c.translation.end());
   }
+  file.group("/candidates");
+  file.array("/candidates/rotation_index", {n}, rotation_index.data());
+  file.array("/candidates/score", {n}, score.data());
+  file.array("/candidates/translation", {n, 3}, translation.data());
 }
 
-Checkpoint read_checkpoint(const Reader& file) {
-  Checkpoint result;
-  const Shape shape = file.shape("/checkpoint/score");
+std::vector<Candidate> read_candidates(const Reader& file) {
+  const Shape shape = file.shape("/candidates/score");
   const hsize_t n = shape.empty() ? 0 : shape[0];
-  result.score = file.reals("/checkpoint/score", {n});
-  result.rotation_index = file.integers("/checkpoint/rotation_index", {n});
-  const std::vector<double> t = file.reals("/checkpoint/translation", {n, 3});
-  result.translation =
-      Eigen::Map<const Eigen::Matrix3Xd>(t.data(), 3, static_cast<Eigen::Index>(n));
-  result.channel_names = file.children("/checkpoint/channels");
-  result.channels.resize(static_cast<Eigen::Index>(result.channel_names.size()),
-                         static_cast<Eigen::Index>(n));
-  for (std::size_t c = 0; c < result.channel_names.size(); ++c) {
-    const std::vector<double> column =
-        file.reals("/checkpoint/channels/" + result.channel_names[c], {n});
-    result.channels.row(static_cast<Eigen::Index>(c)) =
-        Eigen::Map<const Eigen::RowVectorXd>(column.data(), static_cast<Eigen::Index>(n));
-  }
+  const std::vector<float> score = file.floats("/candidates/score", {n});
+  const std::vector<std::int32_t> rotation_index = file.integers("/candidates/rotation_index", {n});
+  const std::vector<float> t = file.floats("/candidates/translation", {n, 3});
+  std::vector<Candidate> result(n);
+  for (hsize_t i = 0; i < n; ++i)
+    result[i] = {rotation_index[i], score[i], {t[3 * i], t[3 * i + 1], t[3 * i + 2]}};
   return result;
 }
 
 void check_body(const BodyRecord& body, const std::string& where) {
+  if (body.kind != "molecule" && body.kind != "part" && body.kind != "balls")
+    throw InputError(where + " kind: expected molecule, part or balls, got \"" + body.kind + "\"");
   if (body.knots.size() > 0)
     check_knots(body.knots, (where + " knots").c_str());
   else
@@ -157,6 +156,21 @@ void check_body(const BodyRecord& body, const std::string& where) {
 }
 
 }  // namespace
+
+bool of_molecules(const Run& run) {
+  return run.fixed.kind == "molecule" && run.moving.kind == "molecule";
+}
+
+void set_metric_columns(Run& run, std::vector<MetricColumn> columns) {
+  for (MetricColumn& column : columns) {
+    const auto old = std::find_if(run.metrics.begin(), run.metrics.end(),
+                                  [&](const MetricColumn& c) { return c.name == column.name; });
+    if (old != run.metrics.end())
+      *old = std::move(column);
+    else
+      run.metrics.push_back(std::move(column));
+  }
+}
 
 void check_run(const Run& run, const char* who) {
   const std::string where = std::string(who) + ": ";
@@ -187,20 +201,16 @@ void check_run(const Run& run, const char* who) {
     expect_size(metric.values.size(), run.poses.poses.size(), where + "metric " + metric.name);
   }
   hdf5::check_names(names, where + "metrics");
-  if (!run.checkpoint) return;
-  const Checkpoint& checkpoint = *run.checkpoint;
-  const std::size_t n = checkpoint.score.size();
-  hdf5::check_names(checkpoint.channel_names, where + "checkpoint channels");
-  expect_size(checkpoint.rotation_index.size(), n, where + "checkpoint rotation_index");
-  expect_size(static_cast<std::size_t>(checkpoint.translation.cols()), n,
-              where + "checkpoint translation");
-  expect_size(static_cast<std::size_t>(checkpoint.channels.rows()), checkpoint.channel_names.size(),
-              where + "checkpoint channels");
-  if (!checkpoint.channel_names.empty())
-    expect_size(static_cast<std::size_t>(checkpoint.channels.cols()), n,
-                where + "checkpoint channel values");
-  for (const std::int32_t index : checkpoint.rotation_index)
-    expect_rotation(index, rotations, where + "checkpoint");
+  for (std::size_t i = 0; i < run.candidates.size(); ++i) {
+    const Candidate& c = run.candidates[i];
+    const std::string what = where + "candidate " + std::to_string(i + 1);
+    expect_rotation(c.rotation_index, rotations, what);
+    if (run.rotations.done[static_cast<std::size_t>(c.rotation_index)] == 0)
+      throw InputError(what + ": its rotation is not among those done");
+    if (!std::isfinite(c.score) || !std::all_of(c.translation.begin(), c.translation.end(),
+                                                [](float x) { return std::isfinite(x); }))
+      throw InputError(what + ": expected a finite score and translation");
+  }
 }
 
 std::string serialize_run(const Run& run) {
@@ -219,7 +229,7 @@ std::string serialize_run(const Run& run) {
   file.array("/rotations/quaternions", {rotations, 4}, run.rotations.quaternions.data());
   file.array("/rotations/done", {rotations}, run.rotations.done.data());
   write_poses(file, run);
-  if (run.checkpoint) write_checkpoint(file, *run.checkpoint);
+  write_candidates(file, run.candidates);
   return file.bytes();
 }
 
@@ -245,7 +255,7 @@ Run read_run(const std::string& path) {
   run.rotations.done = file.bytes("/rotations/done", {n});
   run.rotations.covering_radius = file.real("/rotations", "covering_radius");
   read_poses(file, run);
-  if (file.has("/checkpoint")) run.checkpoint = read_checkpoint(file);
+  run.candidates = read_candidates(file);
   try {
     check_run(run, "contents");
   } catch (const InputError& e) {

@@ -56,8 +56,8 @@ TEST(PenetrationVolume, OfTwoBallsIsTheirLens) {
 }
 
 TEST(PenetrationVolume, OfThinOverlapsIsNotLostBetweenCells) {
-  const MatePart block = mortise_block();
-  const MatePart plate = tenon_plate();
+  const Part block = mortise_block();
+  const Part plate = tenon_plate();
   for (const double depth : {0.01, 0.2}) {
     RigidMotion down;
     down.translation << 0, 0, -depth;
@@ -76,8 +76,8 @@ TEST(Contact, OfATenonInItsMortiseByHand) {
   for (int i = 0; i < 2; ++i) {
     const RigidMotion fixed_frame = i == 0 ? RigidMotion{} : random_motion(random, 2.0, 5.0);
     const RigidMotion moving_frame = i == 0 ? RigidMotion{} : random_motion(random, 2.0, 5.0);
-    const MatePart block = mortise_block(fixed_frame);
-    const MatePart plate = tenon_plate(moving_frame);
+    const Part block = mortise_block(fixed_frame);
+    const Part plate = tenon_plate(moving_frame);
     const auto measure = [&](const Eigen::Vector3d& shift) {
       const RigidMotion shifted{Eigen::Quaterniond::Identity(), shift};
       return measure_contact(block.mesh, *block.solid, plate.mesh, *plate.solid,
@@ -107,9 +107,9 @@ TEST(Contact, OfATenonInItsMortiseByHand) {
 
 TEST(Contact, OfPartsThatHoldEachOtherIsBlocked) {
   // A bar through a closed tunnel whose ends are walled up: no way out.
-  const MatePart box = testing_parts::voxel_part(
+  const Part box = testing_parts::voxel_part(
       5, [](int i, int j, int k) { return !(i == 2 && j == 2 && k >= 1 && k < 4); });
-  const MatePart bar = testing_parts::voxel_part(
+  const Part bar = testing_parts::voxel_part(
       5, [](int i, int j, int k) { return i == 2 && j == 2 && k >= 1 && k < 4; });
   const ContactReport report = measure_contact(box.mesh, *box.solid, bar.mesh, *bar.solid, {});
   EXPECT_NEAR(report.contact_area, 14.0, 0.3);

@@ -16,7 +16,7 @@
 #include "mortise/molecules/contact_types.hpp"
 #include "mortise/scoring/shape_kernel.hpp"
 #include "mortise/search/rotation_search.hpp"
-#include "sample_bodies.hpp"
+#include "search/sample_bodies.hpp"
 
 namespace mortise {
 namespace {

@@ -70,7 +70,7 @@ void write_all(const std::string& directory, bool many) {
 
   Run unfinished = report_run(molecules, 0);
   unfinished.complete = false;
-  unfinished.checkpoint = sample_checkpoint(60);
+  unfinished.candidates = sample_candidates(60);
   write("unfinished", unfinished, molecules);
 
   Run hostile = report_run(molecules, 20);

@@ -59,20 +59,19 @@ TEST(PrepareReport, ShowsTheCandidatesOfAnUnfinishedSearchInInputFrames) {
   const ReportBodies bodies = protease();
   mortise::Run run = report_run(bodies, 0);
   run.complete = false;
-  run.checkpoint = sample_checkpoint(60);
+  run.candidates = sample_candidates(60);
   const mortise::Run shown = prepare_report(run, bodies).run;
   ASSERT_EQ(shown.poses.poses.size(), 60u);
-  const Checkpoint& c = *run.checkpoint;
+  const std::vector<Candidate>& c = run.candidates;
   for (std::size_t i = 0; i < 60; ++i) {  // its scores fall already
     const Pose& pose = shown.poses.poses[i];
-    EXPECT_EQ(pose.score, c.score[i]);
-    EXPECT_EQ(pose.channels[1], c.channels(1, static_cast<Eigen::Index>(i)));
+    EXPECT_EQ(pose.score, c[i].score);
     // A point, by the search's frames step by step.
     const Eigen::Vector3d point(3.0, -7.0, 11.0);
-    const Eigen::Vector4d q = run.rotations.quaternions.col(c.rotation_index[i]);
+    const Eigen::Vector4d q = run.rotations.quaternions.col(c[i].rotation_index);
     const Eigen::Vector3d searched =
         Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * (run.moving.search_from_input * point) +
-        c.translation.col(static_cast<Eigen::Index>(i));
+        Eigen::Vector3d(c[i].translation[0], c[i].translation[1], c[i].translation[2]);
     EXPECT_LT((run.fixed.search_from_input * (pose.moving_in_fixed * point) - searched).norm(),
               1e-9);
     EXPECT_GE(pose.moving_in_fixed.rotation.w(), 0.0);

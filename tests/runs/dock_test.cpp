@@ -49,13 +49,25 @@ DockOptions quick() {
   return options;
 }
 
+// A plan searched to its end and ranked.
+struct Ranked {
+  Ranked(const Body& fixed, const Body& moving, const DockOptions& options) {
+    const SearchPlan plan = plan_dock(fixed, moving, options);
+    RotationSearch search = make_search(plan);
+    EXPECT_TRUE(search.run());
+    candidates = search.candidates();
+    list = rank_search(plan, search);
+  }
+  std::vector<Candidate> candidates;
+  PoseList list;
+};
+
 TEST(Docking, RanksByTheSumOfItsChannelsAndKeepsClustersApart) {
   const Molecule fixed = blob(300, 1), moving = blob(150, 2);
   DockOptions options = quick();
   options.polish = false;  // which leaves the channels as they were found
-  Docking docking(fixed, moving, options);
-  ASSERT_TRUE(docking.search().run());
-  const PoseList list = docking.rank();
+  const Ranked docking(fixed, moving, options);
+  const PoseList& list = docking.list;
   EXPECT_EQ(list.channel_names, (std::vector<std::string>{"shape", "contact"}));
   ASSERT_GT(list.poses.size(), 20U);
   EXPECT_LE(list.poses.size(), 60U);
@@ -85,12 +97,11 @@ TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   options.rescore = false;
   options.polish = false;
   options.cluster_radius = 0.0;
-  Docking docking(blob(200, 3), blob(100, 4), options);
-  ASSERT_TRUE(docking.search().run());
-  const PoseList list = docking.rank();
+  const Ranked docking(blob(200, 3), blob(100, 4), options);
+  const PoseList& list = docking.list;
   EXPECT_EQ(list.channel_names, std::vector<std::string>{"shape"});
   float best = -INFINITY;
-  for (const Candidate& c : docking.search().candidates()) best = std::max(best, c.score);
+  for (const Candidate& c : docking.candidates) best = std::max(best, c.score);
   EXPECT_EQ(list.poses.at(0).score, best);
   EXPECT_EQ(list.poses.size(), 60U);
 }
@@ -102,12 +113,9 @@ TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
     DockOptions options = quick();
     options.rescore = rescore;
     options.poses = 200;  // more than there are
-    Docking polished(fixed, moving, options);
+    const PoseList after = Ranked(fixed, moving, options).list;
     options.polish = false;
-    Docking plain(fixed, moving, options);
-    ASSERT_TRUE(plain.search().run());
-    ASSERT_TRUE(polished.search().run());
-    const PoseList after = polished.rank(), before = plain.rank();
+    const PoseList before = Ranked(fixed, moving, options).list;
     EXPECT_EQ(after.channel_names, before.channel_names);
     // Whether any fall together depends on the last bits; that they are merged is shown in
     // polish_test.
@@ -127,9 +135,7 @@ TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
 }
 
 TEST(Docking, TakesALigandOfOneAtom) {
-  Docking docking(blob(300, 1), blob(1, 2), quick());
-  ASSERT_TRUE(docking.search().run());
-  EXPECT_FALSE(docking.rank().poses.empty());
+  EXPECT_FALSE(Ranked(blob(300, 1), blob(1, 2), quick()).list.poses.empty());
 }
 
 TEST(DockOptions, PresetsAndTheirErrors) {
@@ -140,14 +146,14 @@ TEST(DockOptions, PresetsAndTheirErrors) {
   const auto refused = [&](auto change) {
     DockOptions options = quick();
     change(options);
-    EXPECT_THROW(Docking(body, body, options), InputError);
+    EXPECT_THROW((void)plan_dock(body, body, options), InputError);
   };
   refused([](DockOptions& o) { o.rotations = 0; });
   refused([](DockOptions& o) { o.radius = 0.0; });
   refused([](DockOptions& o) { o.poses = 0; });
   refused([](DockOptions& o) { o.cluster_radius = -1.0; });
   refused([](DockOptions& o) { o.potential = "no/such/file"; });
-  EXPECT_THROW(Docking(Molecule{}, body, quick()), InputError);
+  EXPECT_THROW((void)plan_dock(Molecule{}, body, quick()), InputError);
 }
 
 }  // namespace

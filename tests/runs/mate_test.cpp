@@ -11,9 +11,10 @@
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/placement.hpp"
+#include "mortise/parts/diameter.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "runs/voxel_parts.hpp"
-#include "scoring/mate_contact.hpp"
+#include "scoring/contact_pair.hpp"
 
 namespace mortise {
 namespace {
@@ -26,7 +27,7 @@ MateOptions small_options() {
   options.rotations = 600;
   options.spacing = 0.05;
   options.skin = 0.06;
-  options.detail = 0.03;
+  options.distance_spacing = 0.03;
   options.samples = 1000;
   options.polished = 60;
   options.poses = 10;
@@ -34,23 +35,30 @@ MateOptions small_options() {
 }
 
 ContactPair contact_pair(double spacing) {
-  const MatePart block = mortise_block();
-  const MatePart plate = tenon_plate();
-  const auto body = [&](const MatePart& part) {
+  const Part block = mortise_block();
+  const Part plate = tenon_plate();
+  const auto body = [&](const Part& part) {
     return ContactBody(sample_surface(part.mesh, 400), DistanceField(*part.solid, spacing, 1.0, 0),
                        part.solid->bounds().center());
   };
   return {body(block), body(plate)};
 }
 
-double largest_error(const MatePart& moving, const RigidMotion& truth, const RigidMotion& found) {
+double largest_error(const Part& moving, const RigidMotion& truth, const RigidMotion& found) {
   TrueMate mate;
   mate.moving_in_fixed = truth;
   return Placement(moving.mesh, mate).error(found).largest;
 }
 
+// The plan searched to its end and ranked.
+PoseList ranked(const SearchPlan& plan) {
+  RotationSearch search = make_search(plan);
+  EXPECT_TRUE(search.run());
+  return rank_search(plan, search);
+}
+
 TEST(DistanceField, GradientIsThatOfTheInterpolation) {
-  const MatePart block = mortise_block();
+  const Part block = mortise_block();
   const DistanceField field(*block.solid, 0.5, 1.0, 0);
   Eigen::Vector3f ignored;
   for (int i = 0; i < 50; ++i) {
@@ -139,16 +147,20 @@ TEST(ContactFit, OfTheSeatIsItsContactArea) {
 TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
   std::mt19937 random(11);
   const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
-  const MatePart moving = tenon_plate(start);
-  Mating mating(mortise_block(), moving, small_options());
-  ASSERT_TRUE(mating.search().run());
-  const PoseList list = mating.rank();
+  const Part moving = tenon_plate(start);
+  const SearchPlan plan = plan_mate(mortise_block(), moving, small_options());
+  const PoseList list = ranked(plan);
   ASSERT_EQ(list.poses.size(), 10U);
   const Pose& best = list.poses.front();
   EXPECT_LT(largest_error(moving, inverse(start), best.moving_in_fixed), 0.002);
   EXPECT_EQ(best.score, best.channels[0] + best.channels[1]);
-  EXPECT_EQ(mating.judge(best.moving_in_fixed).score, best.score);
-  EXPECT_GE(mating.judge(mating.polish(best.moving_in_fixed)).score, best.score);
+  // The last stage judges a pose as it stands in the list, and moves it to no worse a place.
+  const Stage& last = plan.stages.back();
+  const auto judged = [&](const std::vector<RigidMotion>& poses) {
+    return last.scorer->score(poses, 1).col(0).sum();
+  };
+  EXPECT_NEAR(judged({best.moving_in_fixed}), best.score, 1e-6);
+  EXPECT_GE(judged(last.move({best.moving_in_fixed}, 1)), best.score - 1e-6);
   for (std::size_t i = 1; i < list.poses.size(); ++i)
     EXPECT_LE(list.poses[i].score, list.poses[i - 1].score);
 }
@@ -157,35 +169,32 @@ TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
 TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
   std::mt19937 random(13);
   const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
-  MatePart fixed = mortise_block();
-  MatePart moving = tenon_plate(start);
+  Part fixed = mortise_block();
+  Part moving = tenon_plate(start);
   fixed.solid = std::make_shared<MeshSolid>(fixed.mesh);
   moving.solid = std::make_shared<MeshSolid>(moving.mesh);
   MateOptions options = small_options();
   options.skeletal = 100.0;
-  EXPECT_THROW(Mating(mortise_block(), moving, options), InputError);  // no MeshSolid
-  Mating mating(fixed, moving, options);
-  ASSERT_TRUE(mating.search().run());
-  const PoseList list = mating.rank();
+  EXPECT_THROW((void)plan_mate(mortise_block(), moving, options), InputError);  // no MeshSolid
+  const PoseList list = ranked(plan_mate(fixed, moving, options));
   EXPECT_LT(largest_error(moving, inverse(start), list.poses.front().moving_in_fixed), 0.002);
   options.skeletal = -1.0;
-  EXPECT_THROW(Mating(fixed, moving, options), InputError);
+  EXPECT_THROW((void)plan_mate(fixed, moving, options), InputError);
 }
 
 TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
   MateOptions options = small_options();
   options.rotations = 300;
   options.threads = 1;
-  Mating one(mortise_block(), tenon_plate(), options);
-  ASSERT_TRUE(one.search().run());
-  const PoseList expected = one.rank();
+  const PoseList expected = ranked(plan_mate(mortise_block(), tenon_plate(), options));
   options.threads = 3;
-  Mating first(mortise_block(), tenon_plate(), options);
-  ASSERT_FALSE(first.search().run([](std::size_t, std::size_t) { return false; }));
-  Mating second(mortise_block(), tenon_plate(), options);
-  second.search().resume(first.search().done(), first.search().candidates());
-  ASSERT_TRUE(second.search().run());
-  const PoseList found = second.rank();
+  const SearchPlan plan = plan_mate(mortise_block(), tenon_plate(), options);
+  RotationSearch first = make_search(plan);
+  ASSERT_FALSE(first.run([](std::size_t, std::size_t) { return false; }));
+  RotationSearch second = make_search(plan);
+  second.resume(first.done(), first.candidates());
+  ASSERT_TRUE(second.run());
+  const PoseList found = rank_search(plan, second);
   ASSERT_EQ(found.poses.size(), expected.poses.size());
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
     EXPECT_EQ(found.poses[i].score, expected.poses[i].score);
@@ -199,25 +208,27 @@ TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
 TEST(Mating, TurnsAboutAGivenAxisOnly) {
   std::mt19937 random(12);
   const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
-  const MatePart moving = tenon_plate(start);
+  const Part moving = tenon_plate(start);
   MateOptions options = small_options();
   options.rotations = 36;
   options.axis = MateAxis{Eigen::Vector3d::UnitZ(), start.rotation * Eigen::Vector3d(0, 0, 2)};
-  Mating mating(mortise_block(), moving, options);
-  ASSERT_EQ(mating.rotations().size(), 72);
-  ASSERT_TRUE(mating.search().run());
+  const SearchPlan plan = plan_mate(mortise_block(), moving, options);
+  ASSERT_EQ(plan.rotations.size(), 72);
+  RotationSearch search = make_search(plan);
+  ASSERT_TRUE(search.run());
   // Before polish: the moving axis lies along the fixed one at every candidate.
-  for (const Candidate& c : mating.search().candidates()) {
-    const RigidMotion pose = mating.search().moving_in_fixed(c);
+  for (const Candidate& c : search.candidates()) {
+    const RigidMotion pose = search.moving_in_fixed(c);
     EXPECT_NEAR(std::abs((pose.rotation * start.rotation * Eigen::Vector3d::UnitZ()).z()), 1.0,
                 1e-6);
   }
-  EXPECT_LT(largest_error(moving, inverse(start), mating.rank().poses.front().moving_in_fixed),
+  EXPECT_LT(largest_error(moving, inverse(start),
+                          rank_search(plan, search).poses.front().moving_in_fixed),
             0.002);
 }
 
 // x' = scale x + shift of a part.
-MatePart moved_part(const MatePart& part, double scale, const Eigen::Vector3d& shift) {
+Part moved_part(const Part& part, double scale, const Eigen::Vector3d& shift) {
   class Moved : public Solid {
    public:
     Moved(std::shared_ptr<const Solid> solid, double scale, Eigen::Vector3d shift)
@@ -237,7 +248,7 @@ MatePart moved_part(const MatePart& part, double scale, const Eigen::Vector3d& s
     double scale_;
     Eigen::Vector3d shift_;
   };
-  MatePart result{part.mesh, std::make_shared<Moved>(part.solid, scale, shift)};
+  Part result{part.mesh, std::make_shared<Moved>(part.solid, scale, shift)};
   result.mesh.vertices = (scale * part.mesh.vertices).colwise() + shift;
   return result;
 }
@@ -245,22 +256,22 @@ MatePart moved_part(const MatePart& part, double scale, const Eigen::Vector3d& s
 TEST(Mating, IsTheSameForPartsOfAnyScaleAndPlace) {
   MateOptions options = small_options();
   options.rotations = 60;
-  Mating plain(mortise_block(), tenon_plate(), options);
-  ASSERT_TRUE(plain.search().run());
-  const PoseList a = plain.rank();
+  const SearchPlan plain = plan_mate(mortise_block(), tenon_plate(), options);
+  const PoseList a = ranked(plain);
+  const double diameter = std::min(diameter_of(mortise_block().mesh.vertices),
+                                   diameter_of(tenon_plate().mesh.vertices));
   struct Case {
     double scale, diameters;
   };
   for (const Case& c : {Case{10.0, 0.0}, Case{1e-3, 0.0}, Case{1e12, 0.0}, Case{1.0, 1e5}}) {
     SCOPED_TRACE(::testing::Message() << c.scale << " and " << c.diameters);
     const Eigen::Vector3d shift =
-        c.diameters * c.scale * plain.smaller_diameter() * Eigen::Vector3d(1.0, -0.7, 0.6);
+        c.diameters * c.scale * diameter * Eigen::Vector3d(1.0, -0.7, 0.6);
     const Eigen::Vector3d other = -0.9 * shift;
-    Mating moved(moved_part(mortise_block(), c.scale, shift),
-                 moved_part(tenon_plate(), c.scale, other), options);
-    EXPECT_EQ(moved.rotations().size(), plain.rotations().size());
-    ASSERT_TRUE(moved.search().run());
-    const PoseList b = moved.rank();
+    const SearchPlan moved = plan_mate(moved_part(mortise_block(), c.scale, shift),
+                                       moved_part(tenon_plate(), c.scale, other), options);
+    EXPECT_EQ(moved.rotations.size(), plain.rotations.size());
+    const PoseList b = ranked(moved);
     ASSERT_EQ(a.poses.size(), b.poses.size());
     // Where coordinates round, at 1e5 diameters to 1e-11, samples fall elsewhere on the surface and
     // polish stops elsewhere in a flat minimum: 0.5% of the score were seen.
@@ -276,9 +287,9 @@ TEST(Mating, SaysWhichPartIsTooSmallForTheGrid) {
   MateOptions options = small_options();
   options.rotations = 1;
   options.most_cells = 100.0;
-  options.detail = 0.5;
+  options.distance_spacing = 0.5;
   try {
-    const Mating mating(moved_part(mortise_block(), 10.0, {0, 0, 0}), tenon_plate(), options);
+    (void)plan_mate(moved_part(mortise_block(), 10.0, {0, 0, 0}), tenon_plate(), options);
     ADD_FAILURE() << "no node of so coarse a grid lies inside";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), ::testing::AllOf(::testing::HasSubstr("the moving part"),
@@ -292,7 +303,7 @@ TEST(Mating, RefusesWhatItCannotWorkWith) {
     MateOptions options = small_options();
     spoil(options);
     try {
-      Mating(mortise_block(), tenon_plate(), options);
+      (void)plan_mate(mortise_block(), tenon_plate(), options);
       ADD_FAILURE() << message;
     } catch (const InputError& e) {
       EXPECT_THAT(e.what(), ::testing::HasSubstr(message));
@@ -305,19 +316,20 @@ TEST(Mating, RefusesWhatItCannotWorkWith) {
   for (double MateOptions::*member :
        {&MateOptions::spacing, &MateOptions::most_cells, &MateOptions::separation,
         &MateOptions::skin, &MateOptions::penalty, &MateOptions::feature, &MateOptions::skeletal,
-        &MateOptions::detail, &MateOptions::tolerance, &MateOptions::flat, &MateOptions::overlap,
-        &MateOptions::cluster_radius})
+        &MateOptions::distance_spacing, &MateOptions::tolerance, &MateOptions::one_sided_weight,
+        &MateOptions::penetration_weight, &MateOptions::cluster_radius})
     for (const double bad : {std::numeric_limits<double>::infinity(), std::nan("")}) {
       MateOptions options = small_options();
       options.*member = bad;
-      EXPECT_THROW(Mating(mortise_block(), tenon_plate(), options), InputError);
+      EXPECT_THROW((void)plan_mate(mortise_block(), tenon_plate(), options), InputError);
     }
   expect_refused(
       [](MateOptions& o) {
         o.axis = MateAxis{Eigen::Vector3d::Zero(), {1, 0, 0}};
       },
       "axis");
-  EXPECT_THROW(Mating({{}, mortise_block().solid}, tenon_plate(), small_options()), InputError);
+  EXPECT_THROW((void)plan_mate(Part{{}, mortise_block().solid}, tenon_plate(), small_options()),
+               InputError);
   EXPECT_THROW((void)mate_preset("slow"), InputError);
 }
 

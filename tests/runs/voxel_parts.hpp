@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mortise/core/rigid_motion.hpp"
-#include "mortise/runs/mate.hpp"
+#include "mortise/parts/part.hpp"
 
 namespace mortise::testing_parts {
 
@@ -100,14 +100,13 @@ class VoxelSolid : public Solid {
   std::vector<Face> faces_;
 };
 
-inline MatePart voxel_part(int n, const VoxelSolid::Filled& filled,
-                           const RigidMotion& motion = {}) {
+inline Part voxel_part(int n, const VoxelSolid::Filled& filled, const RigidMotion& motion = {}) {
   auto solid = std::make_shared<VoxelSolid>(n, filled, motion);
   return {solid->mesh(), solid};
 }
 
 /// A block with a square, blind hole off its centre.
-inline MatePart mortise_block(const RigidMotion& motion = {}) {
+inline Part mortise_block(const RigidMotion& motion = {}) {
   return voxel_part(
       6,
       [](int i, int j, int k) { return k < 4 && !(i >= 1 && i < 3 && j >= 2 && j < 5 && k >= 1); },
@@ -115,7 +114,7 @@ inline MatePart mortise_block(const RigidMotion& motion = {}) {
 }
 
 /// A plate with a tenon that fits the hole: in place at the identity.
-inline MatePart tenon_plate(const RigidMotion& motion = {}) {
+inline Part tenon_plate(const RigidMotion& motion = {}) {
   return voxel_part(
       6,
       [](int i, int j, int k) {

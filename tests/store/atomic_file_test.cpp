@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using testing::sample_checkpoint;
+using testing::sample_candidates;
 using testing::sample_run;
 using testing::ScratchDirectory;
 
@@ -128,7 +128,7 @@ TEST(RunFile, SurvivesKillAtAnyMoment) {
   for (int i = 0; i < kStates; ++i) {
     mortise::Run run = sample_run(50 * i, 1);
     run.seconds = i;
-    run.checkpoint = sample_checkpoint(3000 * (i + 1));
+    run.candidates = sample_candidates(3000 * (i + 1));
     states.push_back(serialize_run(run));
   }
   const std::set<std::string> known(states.begin(), states.end());

@@ -276,7 +276,7 @@ TEST(Export, ZdockHeaderHasTheLayoutOfVersion302) {
   run.poses.poses[0].moving_in_fixed.translation.x() = 2e6;
   EXPECT_THROW((void)export_zdock(run), InputError);
   run = sample_run(2);
-  run.kind = "mate";
+  run.moving.kind = "part";
   EXPECT_THROW((void)export_zdock(run), InputError);
   EXPECT_THROW((void)export_pdb(run, {}, {}), InputError);
 }

@@ -142,6 +142,7 @@ TEST_F(Program, ExportRefusesWhatMakesNoSense) {
   expect_user_error("export ligand.pdb --format csv", "expected an HDF5 file");
   expect_user_error("export none.h5 --format csv", "none.h5: no such file");
   run_.kind = "mate";
+  run_.moving.kind = "part";
   write_run(scratch_ / "mate.h5", run_);
   expect_user_error("export mate.h5 --format pdb", "this is a mate run");
 }
@@ -159,7 +160,7 @@ TEST_F(Program, InfoShowsRunsKnotsAndStructures) {
   run_.complete = false;
   run_.poses.poses.clear();
   run_.metrics.clear();
-  run_.checkpoint = testing::sample_checkpoint(9);
+  run_.candidates = testing::sample_candidates(9);
   write_run(scratch_ / "half.h5", run_);
   EXPECT_THAT(mortise("info half.h5").out,
               AllOf(HasSubstr("not finished"), HasSubstr("9 candidates")));

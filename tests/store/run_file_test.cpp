@@ -21,7 +21,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::sample_checkpoint;
+using testing::sample_candidates;
 using testing::sample_knots;
 using testing::sample_run;
 using testing::ScratchDirectory;
@@ -53,8 +53,10 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   const ScratchDirectory scratch;
   mortise::Run run = sample_run();
   run.kind = "mate";
+  run.moving.kind = "part";
+  run.moving.unit = "mm";
   run.complete = false;
-  run.checkpoint = sample_checkpoint(17);
+  run.candidates = sample_candidates(17);
   write_run(scratch / "run.h5", run);
   const mortise::Run back = read_run(scratch / "run.h5");
   EXPECT_EQ(back.kind, "mate");
@@ -78,6 +80,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
     EXPECT_EQ(a->spec, b->spec);
     EXPECT_EQ(a->sha256, b->sha256);
     EXPECT_EQ(a->unit, b->unit);
+    EXPECT_EQ(a->kind, b->kind);
     expect_same_knots(a->knots, b->knots);
     EXPECT_TRUE(same_motion(a->search_from_input, b->search_from_input));
   }
@@ -99,18 +102,18 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   EXPECT_EQ(back.metrics[0].name, "interface_rmsd");
   EXPECT_EQ(back.metrics[0].values, run.metrics[0].values);
   EXPECT_TRUE(std::isnan(back.metrics[1].values[1]));
-  ASSERT_TRUE(back.checkpoint.has_value());
-  EXPECT_EQ(back.checkpoint->channel_names, run.checkpoint->channel_names);
-  EXPECT_EQ(back.checkpoint->rotation_index, run.checkpoint->rotation_index);
-  EXPECT_EQ(back.checkpoint->score, run.checkpoint->score);
-  EXPECT_EQ(back.checkpoint->translation, run.checkpoint->translation);
-  EXPECT_EQ(back.checkpoint->channels, run.checkpoint->channels);
+  ASSERT_EQ(back.candidates.size(), 17U);
+  for (std::size_t i = 0; i < 17; ++i) {
+    EXPECT_EQ(back.candidates[i].rotation_index, run.candidates[i].rotation_index);
+    EXPECT_EQ(back.candidates[i].score, run.candidates[i].score);
+    EXPECT_EQ(back.candidates[i].translation, run.candidates[i].translation);
+  }
 }
 
 TEST(RunFile, EqualRunsAreEqualBytesAndWritingWhatWasReadChangesNothing) {
   const ScratchDirectory scratch;
   mortise::Run run = sample_run(300);
-  run.checkpoint = sample_checkpoint(1000);
+  run.candidates = sample_candidates(1000);
   write_run(scratch / "a.h5", run);
   const std::string bytes = read_whole_file(scratch / "a.h5");
   ::sleep(1);  // no time but the run's own is in the file
@@ -138,7 +141,7 @@ TEST(RunFile, HoldsEmptyAndLargeContents) {
 TEST(RunFile, RefusesRunsThatDoNotAgreeWithThemselves) {
   const auto error_of = [](auto change) -> std::string {
     mortise::Run run = sample_run();
-    run.checkpoint = sample_checkpoint(4);
+    run.candidates = sample_candidates(4);
     change(run);
     try {
       (void)serialize_run(run);
@@ -169,10 +172,14 @@ TEST(RunFile, RefusesRunsThatDoNotAgreeWithThemselves) {
               HasSubstr("without \"/\""));
   EXPECT_THAT(error_of([](mortise::Run& r) { r.fixed.knots.points(3, 0) = -1.0; }),
               HasSubstr("fixed knots"));
-  EXPECT_THAT(error_of([](mortise::Run& r) { r.checkpoint->rotation_index[0] = -1; }),
-              HasSubstr("checkpoint"));
-  EXPECT_THAT(error_of([](mortise::Run& r) { r.checkpoint->channels.resize(2, 3); }),
-              HasSubstr("checkpoint channel"));
+  EXPECT_THAT(error_of([](mortise::Run& r) { r.candidates[0].rotation_index = -1; }),
+              HasSubstr("candidate 1: rotation index -1"));
+  EXPECT_THAT(error_of([](mortise::Run& r) { r.candidates[1].rotation_index = 3; }),
+              HasSubstr("candidate 2: its rotation is not among those done"));
+  EXPECT_THAT(error_of([](mortise::Run& r) { r.candidates[2].translation[1] = NAN; }),
+              HasSubstr("candidate 3: expected a finite score and translation"));
+  EXPECT_THAT(error_of([](mortise::Run& r) { r.moving.kind = "glue"; }),
+              HasSubstr("moving kind: expected molecule, part or balls"));
 }
 
 TEST(RunFile, SaysWhatIsWrongWithAFile) {
@@ -192,7 +199,7 @@ TEST(RunFile, SaysWhatIsWrongWithAFile) {
   hdf5::write_head(future, "run", 99, sample_run().provenance);
   put(scratch / "future.h5", future.bytes());
   EXPECT_THAT(read_error(scratch / "future.h5"),
-              AllOf(HasSubstr("expected format version 1"),
+              AllOf(HasSubstr("expected format version 2"),
                     HasSubstr("found 99, written by Mortise 0.1.0")));
   hdf5::Writer headless;
   hdf5::write_head(headless, "run", kRunFormatVersion, sample_run().provenance);
@@ -215,7 +222,8 @@ TEST(RunFile, NamesTheDatasetThatIsMissingOrMisshapen) {
   partial.attribute("/", "seconds", 1.0);
   hdf5::write_figures(partial, "/figures", {});
   partial.group("/fixed");
-  for (const char* name : {"path", "spec", "sha256"}) partial.attribute("/fixed", name, "x");
+  for (const char* name : {"path", "spec", "sha256", "kind"})
+    partial.attribute("/fixed", name, "x");
   put(scratch / "missing.h5", partial.bytes());
   EXPECT_THAT(read_error(scratch / "missing.h5"), HasSubstr("dataset /fixed/knots is missing"));
   const double six[6] = {1, 2, 3, 4, 5, 6};

@@ -70,13 +70,15 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
                std::string(64, 'a'),
                sample_knots(40, random),
                {random_rotation(random), Eigen::Vector3d(1, 2, 3)},
-               ""};
+               "angstrom",
+               "molecule"};
   run.moving = {"b.pdb",
                 "b.pdb",
                 std::string(64, 'b'),
                 sample_knots(30, random),
                 {random_rotation(random), Eigen::Vector3d(-4, 5, 6)},
-                "mm"};
+                "angstrom",
+                "molecule"};
   run.rotations.covering_radius = 0.22;
   run.rotations.quaternions.resize(4, 50);
   run.rotations.done.assign(50, 1);
@@ -103,16 +105,16 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
   return run;
 }
 
-inline Checkpoint sample_checkpoint(int count) {
-  Checkpoint checkpoint;
-  checkpoint.channel_names = {"shape", "electrostatics"};
-  checkpoint.translation = Eigen::Matrix3Xd::Random(3, count);
-  checkpoint.channels = Eigen::MatrixXd::Random(2, count);
-  for (int i = 0; i < count; ++i) {
-    checkpoint.rotation_index.push_back(i % 50);
-    checkpoint.score.push_back(static_cast<float>(100.0 / (i + 3)));
-  }
-  return checkpoint;
+/// Candidates of the rotations that sample_run() has done; their scores fall.
+inline std::vector<Candidate> sample_candidates(int count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+  std::vector<Candidate> candidates;
+  for (int i = 0; i < count; ++i)
+    candidates.push_back({i % 46 + 4,
+                          100.0F / static_cast<float>(i + 3),
+                          {uniform(random), uniform(random), uniform(random)}});
+  return candidates;
 }
 
 }  // namespace mortise::testing

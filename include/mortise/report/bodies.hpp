@@ -14,8 +14,9 @@
 
 namespace mortise {
 
-/// One body: a molecule in a docking run, a mesh in a run of parts; the other is empty. Both are
-/// where its file was not found and SearchPlaces::allow_missing let it pass.
+/// One body: a molecule in a run of two molecules, else a mesh, of balls where it is no part; the
+/// other is empty. Both are where its file was not found and SearchPlaces::allow_missing let it
+/// pass.
 struct ReportBody {
   std::string found;  ///< path of the file as it was found now
   Molecule molecule;  ///< input frame; waters left out
@@ -48,8 +49,8 @@ struct SearchPlaces {
 /// directories (not below them) and trees; only files of the same ending, at most 1 GB each, in a
 /// tree the first 100,000.
 /// @throws FileError naming the body, the SHA-256 looked for and where, if no file has its
-/// contents, and what a file of its name has instead; as read_molecule and read_part; InputError
-/// for a run that is neither of molecules nor of parts, or a tree that is no directory
+/// contents, and what a file of its name has instead; as read_input_body; InputError for
+/// a tree that is no directory
 [[nodiscard]] ReportBodies read_report_bodies(const Run& run, const SearchPlaces& places = {});
 
 /// 3 x N points of a body, input frame: heavy atoms, vertices of the mesh that a triangle uses, or

@@ -28,7 +28,4 @@ namespace mortise {
                                                           const PoseList& poses, std::size_t count,
                                                           int threads = 0);
 
-/// Puts columns into the run, in place of earlier ones of their names.
-void set_metric_columns(Run& run, std::vector<MetricColumn> columns);
-
 }  // namespace mortise

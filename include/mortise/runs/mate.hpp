@@ -4,24 +4,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
-#include "mortise/core/knots.hpp"
-#include "mortise/core/pose.hpp"
-#include "mortise/parts/solid.hpp"
-#include "mortise/parts/triangle_mesh.hpp"
-#include "mortise/rotations/rotation_set.hpp"
-#include "mortise/search/rotation_search.hpp"
+#include "mortise/runs/option_row.hpp"
+#include "mortise/runs/search_plan.hpp"
+#include "mortise/store/body.hpp"
 
 namespace mortise {
-
-/// A part as mating needs it: its surface, and what answers distance and inclusion.
-struct MatePart {
-  TriangleMesh mesh;
-  std::shared_ptr<const Solid> solid;
-};
 
 /// Restricts the rotations to those that carry an axis of the moving part onto one of the fixed
 /// part, either way round.
@@ -30,7 +22,8 @@ struct MateAxis {
   Eigen::Vector3d moving = Eigen::Vector3d::UnitZ();  ///< input frame; any length but 0
 };
 
-/// All lengths are fractions of the smaller part's diameter: scaling both parts changes nothing.
+/// Lengths are fractions of the smaller part's diameter where nothing else is said: scaling both
+/// parts changes nothing.
 struct MateOptions {
   int rotations = 600;  ///< size of the rotation set, or turns about the axis; >= 1
   int aligned = 600;    ///< most rotations added that lay flat faces of the parts against each
@@ -48,58 +41,54 @@ struct MateOptions {
                              ///< >= 0
   double skeletal = 0.0;     ///< weight of a second channel, the parts' skeletal densities, beside
                              ///< the double skin's 1; >= 0, 0 = none. Needs solids of meshes
-  double detail = 0.01;      ///< grid step of the parts' distances, for judging contact; > 0
-  double tolerance = 0.005;  ///< distance up to which surfaces are in contact; > 0
-  double flat = 1.0;     ///< what contact that pushes one way counts, as far as contact that holds
-                         ///< backs it; 0 to 1
-  double overlap = 3.0;  ///< what an area of penetration one tolerance deep costs against an area
-                         ///< of contact; >= 0
-  int samples = 3000;    ///< points on the smaller surface; >= 100
-  int polished = 100;    ///< placements polished to the end; >= 1
-  int poses = 100;       ///< reported; >= 1
+  double distance_spacing = 0.01;   ///< grid step of the parts' distances, for judging contact; > 0
+  double tolerance = 0.005;         ///< distance up to which surfaces are in contact; > 0
+  double one_sided_weight = 1.0;    ///< what contact that pushes one way counts, as far as contact
+                                    ///< that holds backs it; 0 to 1
+  double penetration_weight = 3.0;  ///< what an area of penetration one tolerance deep costs
+                                    ///< against an area of contact; >= 0
+  int samples = 3000;            ///< points on the smaller surface; >= 100
+  int polished = 100;            ///< placements polished to the end; >= 1
+  int poses = 100;               ///< reported; >= 1
   double cluster_radius = 0.02;  ///< placements whose RMSD to a better one is below are dropped
-  int threads = 0;               ///< 0 = all cores; never changes the result
+  int check = 10;                ///< best poses whose contact is measured exactly; >= 0
+  double deviation = 0.0;   ///< of a STEP file's tessellation, length unit of the file; 0 = the
+                            ///< reader's default
+  bool allow_open = false;  ///< accept parts that cannot be closed; inside goes by winding number
+  std::optional<std::uint64_t> random_start =
+      {};           ///< seed of a random motion that the moving part is given first: up to half
+                    ///< its diameter per axis; poses refer to the file as it is. None = as it is
+  int threads = 0;  ///< 0 = all cores; never changes the result
 };
 
 /// "fast", "default" or "thorough". @throws InputError for any other name, listing these
 [[nodiscard]] MateOptions mate_preset(const std::string& name);
 
-/// The options as one JSON object, for the run file.
+/// Every option but threads, in the order of the help.
+[[nodiscard]] std::span<const OptionRow<MateOptions>> mate_option_rows();
+
+/// The options as one JSON object, for the run file; and back.
+/// @throws InputError if this program does not know all of them
 [[nodiscard]] std::string to_json(const MateOptions& options);
+[[nodiscard]] MateOptions parse_mate_options(const std::string& json);
 
-/// One mating run that can be stopped and taken up again.
-class Mating {
- public:
-  /// @throws InputError if a part has no surface or no inside, an option is out of range, or the
-  /// skeletal channel is asked for and a solid is no MeshSolid
-  Mating(const MatePart& fixed, const MatePart& moving, const MateOptions& options = {});
-  ~Mating();
-  Mating(Mating&&) noexcept;
-  Mating& operator=(Mating&&) noexcept;
+/// What a mating searches and how it ranks. Poses are judged by columns "contact" and
+/// "penetration": areas relative to the smaller surface; the score is their sum. Of the contact's
+/// area C, F = |sum of its normals by area| pushes one way and H = C - F holds: the column is
+/// H + one_sided_weight H F / (H + F). A face laid on another has H = 0.
+///
+/// Further columns, of the best options.check poses, are measured exactly (metrics/contact.hpp):
+/// contact_area, penetration_volume, penetration_depth, pull_blocked, pull_x, pull_y, pull_z.
+///
+/// Any body will do: of balls, and of a molecule's atoms, the union is the part.
+/// @throws InputError if a part has no surface or no inside, the two files give different units, an
+/// option is out of range, or the skeletal channel is asked for and a body is no mesh
+[[nodiscard]] SearchPlan plan_mate(const Body& fixed, const Body& moving,
+                                   const MateOptions& options = {});
 
-  /// The exhaustive part: run(), done(), candidates() and resume() of it.
-  [[nodiscard]] RotationSearch& search();
-  [[nodiscard]] const RotationSet& rotations() const;
-  [[nodiscard]] const Knots& fixed_knots() const;   ///< input frame
-  [[nodiscard]] const Knots& moving_knots() const;  ///< input frame
-  /// The length that the options' fractions refer to.
-  [[nodiscard]] double smaller_diameter() const;
-
-  /// Judges, polishes and ranks what the search has found so far: best first, at most
-  /// options.poses. Channels "contact" and "penetration" are areas relative to the smaller surface;
-  /// the score is their sum. Of the contact's area C, F = |sum of its normals by area| pushes one
-  /// way and H = C - F holds: the channel is H + flat H F / (H + F). A face laid on another has
-  /// H = 0.
-  [[nodiscard]] PoseList rank() const;
-
-  /// The score and channels of one placement, as rank() gives them.
-  [[nodiscard]] Pose judge(const RigidMotion& moving_in_fixed) const;
-  /// A placement polished as rank() polishes its best.
-  [[nodiscard]] RigidMotion polish(const RigidMotion& moving_in_fixed) const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// Mates: searches and ranks.
+/// @throws InputError as plan_mate(); std::exception of `watch` passed on
+[[nodiscard]] Run mate(const Body& fixed, const Body& moving, const MateOptions& options = {},
+                       const RunWatch& watch = {});
 
 }  // namespace mortise

@@ -11,6 +11,7 @@
 
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/scoring/contact_potential.hpp"
+#include "mortise/scoring/pose_scorer.hpp"
 #include "mortise/scoring/shape_kernel.hpp"
 
 namespace mortise {
@@ -24,14 +25,6 @@ struct TypedPoints {
 struct ScoreMapsOptions {
   double spacing = 1.0;  ///< of the grid, angstrom; > 0
   int threads = 0;       ///< 0 = all cores; never changes the result
-};
-
-/// A score and how it changes as the moving body moves: force by its translation, per angstrom;
-/// torque by its rotation about its moved centre, fixed frame, per radian.
-struct PlacedScore {
-  double value = 0.0;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
 };
 
 /// A moving body as ScoreMaps::smooth_score reads it: one entry per point, the typed ones first.

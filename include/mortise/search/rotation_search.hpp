@@ -13,6 +13,7 @@
 #include "mortise/core/pose.hpp"
 #include "mortise/core/progress.hpp"
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/search/candidate.hpp"
 
 namespace mortise {
 
@@ -30,14 +31,6 @@ struct SearchOptions {
       3e-3;  ///< error allowed of a knot's transform where radii are many, relative to its largest
              ///< value (kernels/compressed_radius.hpp); 1e-8 to 0.1. One radius has none
   int threads = 0;  ///< 0 = all cores; never changes the result
-};
-
-/// One of the best translations at one rotation, search frame: a local maximum of the score, or the
-/// best that is left on the slope of a better one past the separation.
-struct Candidate {
-  std::int32_t rotation_index = -1;
-  float score = 0.0F;                     ///< sum of all channels; at the sub-grid maximum
-  std::array<float, 3> translation = {};  ///< of the moving body's centre
 };
 
 /// The rotation loop of docs/math.md: rotate the moving knots, spread them, transform, multiply

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mortise/molecules/molecule.hpp"
-#include "mortise/parts/read_part.hpp"
+#include "mortise/store/body.hpp"
 #include "mortise/store/inputs.hpp"
 #include "mortise/store/run_file.hpp"
 
@@ -49,14 +49,15 @@ struct ExportOptions {
 [[nodiscard]] std::string export_mmcif(const Run& run, const Molecule& fixed,
                                        const Molecule& moving, const ExportOptions& options = {});
 
-/// A run's parts, read once for all its poses.
+/// A run's bodies as surfaces, read once for all its poses.
 struct ExportParts {
-  ReadPartResult fixed;  ///< empty unless ExportOptions::complex
-  ReadPartResult moving;
+  TriangleMesh fixed;  ///< empty unless ExportOptions::complex
+  TriangleMesh moving;
+  std::string fixed_unit, moving_unit;
   std::string moving_path;  ///< where it was found
 };
 
-/// @throws InputError for a run of molecules; as read_input_part
+/// @throws InputError for a run of two molecules; as read_input_body
 [[nodiscard]] ExportParts read_export_parts(const Run& run, const LocateOptions& fixed,
                                             const LocateOptions& moving,
                                             const ExportOptions& options = {});

@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "mortise/molecules/molecule.hpp"
-#include "mortise/parts/read_part.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise {
@@ -23,17 +21,5 @@ struct LocateOptions {
 /// @throws FileError if there is no such file, or its contents have changed since the run
 [[nodiscard]] std::string locate_input(const BodyRecord& body, const Provenance& provenance,
                                        const std::string& name, const LocateOptions& options = {});
-
-/// Reads a body's molecule again: the recorded model and chains, hydrogens included, waters not.
-/// @throws as locate_input and read_molecule
-[[nodiscard]] Molecule read_input_molecule(const BodyRecord& body, const Provenance& provenance,
-                                           const std::string& name,
-                                           const LocateOptions& options = {});
-
-/// Reads a body's part again: tessellated as the run's options say, open surfaces accepted.
-/// @throws as locate_input and read_part
-[[nodiscard]] ReadPartResult read_input_part(const BodyRecord& body, const Provenance& provenance,
-                                             const std::string& name,
-                                             const LocateOptions& options = {});
 
 }  // namespace mortise

@@ -5,19 +5,19 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "mortise/core/knots.hpp"
 #include "mortise/core/pose.hpp"
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/search/candidate.hpp"
 #include "mortise/store/provenance.hpp"
 
 namespace mortise {
 
 /// Layout of the run file; a reader refuses any other.
-inline constexpr int kRunFormatVersion = 1;
+inline constexpr int kRunFormatVersion = 2;
 
 /// One of the two bodies: its file, and what the search made of it.
 struct BodyRecord {
@@ -26,7 +26,9 @@ struct BodyRecord {
   std::string sha256;             ///< of the file, 64 hex digits
   Knots knots;                    ///< input frame; may be empty
   RigidMotion search_from_input;  ///< carries input coordinates to the frame the search used
-  std::string unit;  ///< of a part's lengths, as its file says: "mm"; empty if it does not
+  std::string unit;  ///< of lengths: "angstrom" of molecules, of a part what its file says, such as
+                     ///< "mm"; empty if it says nothing
+  std::string kind = "molecule";  ///< "molecule", "part" or "balls"
 };
 
 /// The rotations searched and which of them are done.
@@ -35,16 +37,6 @@ struct RotationRecord {
       Eigen::Matrix4Xd(4, 0);      ///< 4 x N: w, x, y, z of unit length, search frame
   double covering_radius = 0.0;    ///< radians
   std::vector<std::uint8_t> done;  ///< N: 1 = searched
-};
-
-/// The best raw candidates of a search not yet finished; with RotationRecord::done it resumes to
-/// the same bytes.
-struct Checkpoint {
-  std::vector<std::string> channel_names;    ///< C
-  std::vector<std::int32_t> rotation_index;  ///< N: column of RotationRecord::quaternions
-  std::vector<double> score;                 ///< N; a float is kept exactly
-  Eigen::Matrix3Xd translation = Eigen::Matrix3Xd(3, 0);  ///< 3 x N, search frame
-  Eigen::MatrixXd channels;                               ///< C x N
 };
 
 /// One further number per pose, such as interface_rmsd; NaN = absent.
@@ -64,8 +56,16 @@ struct Run {
   RotationRecord rotations;
   PoseList poses;  ///< in rank order
   std::vector<MetricColumn> metrics;
-  std::optional<Checkpoint> checkpoint;
+  std::vector<Candidate> candidates;  ///< of the rotations done, by rotation, best first within
+                                      ///< one: what an unfinished search goes on from and what a
+                                      ///< finished one can be ranked from anew
 };
+
+/// Whether both bodies are molecules.
+[[nodiscard]] bool of_molecules(const Run& run);
+
+/// Puts columns into the run, in place of earlier ones of their names.
+void set_metric_columns(Run& run, std::vector<MetricColumn> columns);
 
 /// Throws InputError naming `who` and the field unless all lengths agree, indices are in range and
 /// names can be stored (unique, not empty, not ".", without "/").

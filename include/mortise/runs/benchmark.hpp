@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A benchmark's pairs, its rows of results, the file they are kept in, and the counts of successes.
+/// @file
+/// A set of known complexes, docked: its pairs, rows of results, the file they are kept in, and the
+/// counts of successes.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace mortise::app {
+#include "mortise/runs/dock.hpp"
+
+namespace mortise {
 
 /// One known complex of the benchmark's table; files with model and chains, as read_molecule takes
 /// them.
@@ -54,6 +59,22 @@ struct ResultRow {
   [[nodiscard]] const std::string& operator[](const std::string& column) const;
 };
 
+/// The row of a pair before it is docked: name, difficulty.
+[[nodiscard]] ResultRow result_row(const BenchmarkPair& pair);
+
+/// A pair docked from a random start and measured against its reference.
+struct BenchmarkResult {
+  Run run;  ///< with its metrics as columns; not complete if `watch` stopped it
+  ResultRow row;
+};
+
+/// @param docking  its random_start is replaced by the pair's own: a seed made of `seed` and the
+/// pair's name, whatever else is in the table
+/// @throws InputError if a body is no molecule; as read_body(), plan_dock() and ReferenceComplex
+[[nodiscard]] BenchmarkResult dock_known_pair(const BenchmarkPair& pair, DockOptions docking,
+                                              std::uint64_t seed, const std::string& command_line,
+                                              const RunWatch& watch = {});
+
 /// One line without its end, and back. @throws InputError unless it has a cell for every column
 [[nodiscard]] std::string csv_line(const ResultRow& row);
 [[nodiscard]] ResultRow parse_result_row(const std::string& line);
@@ -87,4 +108,4 @@ struct SuccessCount {
 /// The same for a person to read.
 [[nodiscard]] std::string success_text(const std::vector<SuccessCount>& counts);
 
-}  // namespace mortise::app
+}  // namespace mortise

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "mortise/core/rigid_motion.hpp"
-#include "mortise/runs/mate.hpp"
+#include "mortise/parts/part.hpp"
 
 namespace mortise {
 
@@ -21,7 +21,7 @@ struct LocalFrame {
 
 /// The part in a local frame; its solid asks the one given.
 /// @throws InputError unless the frame is finite and its unit > 0
-[[nodiscard]] MatePart local_part(const MatePart& part, const LocalFrame& frame);
+[[nodiscard]] Part local_part(const Part& part, const LocalFrame& frame);
 
 /// A motion from one input frame to another, as one between local frames of the same unit.
 [[nodiscard]] RigidMotion local_motion(const LocalFrame& fixed, const LocalFrame& moving,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts and motions in local frames.
-#include "runs/local_part.hpp"
+#include "scoring/local_part.hpp"
 
 #include <cmath>
 #include <string>
@@ -41,11 +41,11 @@ Eigen::Matrix3Xd LocalFrame::to_input(const Eigen::Matrix3Xd& points) const {
   return (unit * points).colwise() + centre;
 }
 
-MatePart local_part(const MatePart& part, const LocalFrame& frame) {
+Part local_part(const Part& part, const LocalFrame& frame) {
   if (!(frame.unit > 0.0) || !std::isfinite(frame.unit) || !frame.centre.allFinite())
     throw InputError("mate: expected parts of finite extent, found a diameter of " +
                      std::to_string(frame.unit));
-  MatePart local{part.mesh, std::make_shared<LocalSolid>(part.solid, frame)};
+  Part local{part.mesh, std::make_shared<LocalSolid>(part.solid, frame)};
   local.mesh.vertices = frame.to_local(part.mesh.vertices);
   return local;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact energy, fit and descent.
-#include "scoring/mate_contact.hpp"
+#include "scoring/contact_pair.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Eigen::Index count_of(const ContactBody& body, double share) {
+Eigen::Index count_of(const ContactBody& body, double sample_fraction) {
   const Eigen::Index all = body.points.cols();
-  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * static_cast<double>(all)), 1,
-                                  all);
+  return std::clamp<Eigen::Index>(
+      static_cast<Eigen::Index>(sample_fraction * static_cast<double>(all)), 1, all);
 }
 
 // The twist about `centre`, then the motion.
@@ -39,11 +39,12 @@ ContactBody::ContactBody(const SurfaceSamples& samples, DistanceField distance,
       reach((samples.points.colwise() - middle).colwise().norm().maxCoeff()) {}
 
 template <class Use>
-void ContactPair::for_each(const RigidMotion& motion, double share, const Use& use) const {
+void ContactPair::for_each(const RigidMotion& motion, double sample_fraction,
+                           const Use& use) const {
   const Eigen::Matrix3f R = motion.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = motion.translation.cast<float>();
   Eigen::Vector3f gradient;
-  const Eigen::Index moving_count = count_of(moving_, share);
+  const Eigen::Index moving_count = count_of(moving_, sample_fraction);
   const double moving_area = moving_.area / static_cast<double>(moving_count);
   for (Eigen::Index i = 0; i < moving_count; ++i) {
     const Eigen::Vector3f x = R * moving_.points.col(i) + t;
@@ -54,7 +55,7 @@ void ContactPair::for_each(const RigidMotion& motion, double share, const Use& u
   const Eigen::Matrix3f back = R.transpose();
   const Eigen::Vector3f centre = (motion * moving_.centre).cast<float>();
   const auto reach_sq = static_cast<float>(1.21 * moving_.reach * moving_.reach);
-  const Eigen::Index fixed_count = count_of(fixed_, share);
+  const Eigen::Index fixed_count = count_of(fixed_, sample_fraction);
   const double fixed_area = fixed_.area / static_cast<double>(fixed_count);
   for (Eigen::Index i = 0; i < fixed_count; ++i) {
     const Eigen::Vector3f x = fixed_.points.col(i);
@@ -67,13 +68,13 @@ void ContactPair::for_each(const RigidMotion& motion, double share, const Use& u
 }
 
 ContactEnergy ContactPair::energy(const RigidMotion& motion, double sigma, double penalty,
-                                  double share, const Eigen::Vector3d& centre,
+                                  double sample_fraction, const Eigen::Vector3d& centre,
                                   double length) const {
   ContactEnergy e;
   const auto inverse = static_cast<float>(1.0 / sigma);
   const Eigen::Vector3f c = centre.cast<float>();
   const auto per_length = static_cast<float>(1.0 / length);
-  for_each(motion, share,
+  for_each(motion, sample_fraction,
            [&](float side, const Eigen::Vector3f& x, const Eigen::Vector3f&, float d,
                const Eigen::Vector3f& g, double area) {
              const float u = d * inverse;
@@ -105,12 +106,13 @@ ContactEnergy ContactPair::energy(const RigidMotion& motion, double sigma, doubl
   return e;
 }
 
-ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance, double share) const {
+ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance,
+                            double sample_fraction) const {
   ContactFit result;
   Eigen::Vector3d push = Eigen::Vector3d::Zero();
   const auto inverse = static_cast<float>(1.0 / tolerance);
   constexpr float kDeepest = 8.0F;  // tolerances: deeper counts no more
-  for_each(motion, share,
+  for_each(motion, sample_fraction,
            [&](float side, const Eigen::Vector3f&, const Eigen::Vector3f& n, float d,
                const Eigen::Vector3f& g, double area) {
              const float u = d * inverse;
@@ -128,11 +130,11 @@ ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance, double 
 }
 
 RigidMotion ContactPair::descend(const RigidMotion& start, double sigma, double penalty,
-                                 double share, int steps) const {
+                                 double sample_fraction, int steps) const {
   RigidMotion best = start;
   const double length = 0.5 * moving_.reach;
   Eigen::Vector3d centre = best * moving_.centre;
-  ContactEnergy here = energy(best, sigma, penalty, share, centre, length);
+  ContactEnergy here = energy(best, sigma, penalty, sample_fraction, centre, length);
   double damping = 1e-2;
   for (int step = 0; step < steps; ++step) {
     const double size = here.curvature.diagonal().maxCoeff();
@@ -145,7 +147,7 @@ RigidMotion ContactPair::descend(const RigidMotion& start, double sigma, double 
     if (longest > 3.0 * sigma) move *= 3.0 * sigma / longest;
     const RigidMotion there = twisted(best, move, centre, length);
     const Eigen::Vector3d there_centre = there * moving_.centre;
-    const ContactEnergy next = energy(there, sigma, penalty, share, there_centre, length);
+    const ContactEnergy next = energy(there, sigma, penalty, sample_fraction, there_centre, length);
     if (next.value < here.value) {
       const double gain = here.value - next.value;
       best = there;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ranked list of poses is worth: at which rank the first good one comes, and the best
-// values.
+/// @file
+/// What a ranked list of poses is worth: at which rank the first good one comes, and the best
+/// values.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "mortise/metrics/quality.hpp"
-#include "mortise/store/run_file.hpp"
 
-namespace mortise::app {
+namespace mortise {
 
 /// Ranks count from 1; none = no such pose.
 struct QualitySummary {
@@ -22,13 +21,7 @@ struct QualitySummary {
   ComplexMetrics best;           ///< each value the best of any pose; absent without poses
 };
 
-/// @param metrics  in rank order, at least one
+/// @param metrics  in rank order
 [[nodiscard]] QualitySummary summarise(const std::vector<ComplexMetrics>& metrics);
 
-/// The summary under the keys that `evaluate --json` prints.
-[[nodiscard]] nlohmann::ordered_json to_json(const QualitySummary& summary);
-
-/// Puts the metrics into the run as columns, in place of earlier ones of their names.
-void set_metrics(Run& run, const std::vector<ComplexMetrics>& metrics);
-
-}  // namespace mortise::app
+}  // namespace mortise

@@ -51,19 +51,19 @@ class ContactPair {
   ///   phi(u) = -exp(-u^2 / 2) for u >= 0,   -1 + penalty (sqrt(1 + u^2) - 1) for u < 0.
   ///
   /// Once differentiable at 0; grows linearly with depth. Divided by the smaller surface's area.
-  /// @param share    samples used, as a fraction of all
+  /// @param sample_fraction  samples used, as a fraction of all
   /// @param centre   of the twists, fixed frame; @param length  that makes angles lengths
   [[nodiscard]] ContactEnergy energy(const RigidMotion& moving_in_fixed, double sigma,
-                                     double penalty, double share, const Eigen::Vector3d& centre,
-                                     double length) const;
+                                     double penalty, double sample_fraction,
+                                     const Eigen::Vector3d& centre, double length) const;
 
   [[nodiscard]] ContactFit fit(const RigidMotion& moving_in_fixed, double tolerance,
-                               double share) const;
+                               double sample_fraction) const;
 
   /// Levenberg and Marquardt's steps down the energy; the result's energy is never above the
   /// start's.
   [[nodiscard]] RigidMotion descend(const RigidMotion& start, double sigma, double penalty,
-                                    double share, int steps) const;
+                                    double sample_fraction, int steps) const;
 
   [[nodiscard]] const ContactBody& fixed() const { return fixed_; }
   [[nodiscard]] const ContactBody& moving() const { return moving_; }
@@ -75,7 +75,7 @@ class ContactPair {
   /// sample's normal n, and the other body's distance d and its gradient g, in the fixed frame;
   /// side = +1 for moving samples, -1 for fixed ones.
   template <class Use>
-  void for_each(const RigidMotion& motion, double share, const Use& use) const;
+  void for_each(const RigidMotion& motion, double sample_fraction, const Use& use) const;
 
   ContactBody fixed_, moving_;
 };

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading, writing and counting a benchmark's tables.
-#include "benchmark_table.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,11 +9,12 @@
 #include <sstream>
 #include <utility>
 
-#include "dock_options.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/runs/benchmark.hpp"
+#include "mortise/runs/run_kind.hpp"
 #include "mortise/store/atomic_file.hpp"
 
-namespace mortise::app {
+namespace mortise {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,7 +154,7 @@ std::vector<ResultRow> read_results(const std::string& path, const std::string& 
     throw FileError(path, "expected a file that mortise benchmark wrote (--force replaces it)");
   const Json recorded = Json::parse(lines[0].substr(mark.size()), nullptr, false);
   if (!recorded.is_object()) throw FileError(path, 1, "expected the options as a JSON object");
-  expect_same_settings(recorded, Json::parse(options), path);
+  expect_same_options(recorded.dump(), options, path);
   std::vector<ResultRow> rows;
   for (std::size_t i = 2; i < lines.size(); ++i) {
     try {
@@ -252,4 +251,4 @@ std::string success_text(const std::vector<SuccessCount>& counts) {
   return text;
 }
 
-}  // namespace mortise::app
+}  // namespace mortise

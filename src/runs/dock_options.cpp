@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of docking options and its presets.
+#include "mortise/core/errors.hpp"
+#include "mortise/runs/dock.hpp"
+#include "runs/option_table.hpp"
+#include "runs/seed_option.hpp"
+
+namespace mortise {
+namespace {
+
+using Row = OptionRow<DockOptions>;
+using O = DockOptions;
+constexpr auto kReading = OptionScope::kReading;
+constexpr auto kSearch = OptionScope::kSearch;
+constexpr auto kRanking = OptionScope::kRanking;
+
+constexpr Row kRows[] = {
+    {"rotations", kSearch, "Rotations searched",
+     Row::Integer([](O& o) -> int& { return o.rotations; }), 1.0},
+    {"spacing", kSearch, "Grid step, angstrom",
+     Row::Real([](O& o) -> double& { return o.search.spacing; }), 0.0, 1e3, true},
+    {"cutoff", kSearch, "Frequency where the low-pass reaches zero, cycles per angstrom",
+     Row::Real([](O& o) -> double& { return o.search.cutoff; }), 0.0, 1e3, true},
+    {"per_rotation", kSearch, "Best translations kept at each rotation",
+     Row::Integer([](O& o) -> int& { return o.search.per_rotation; }), 1.0, 1000.0},
+    {"separation", kSearch, "Least distance between translations kept at one rotation, angstrom",
+     Row::Real([](O& o) -> double& { return o.search.separation; }), 0.0, 1e4},
+    {"spread_width", kSearch, "Grid cells per axis that an atom is spread over",
+     Row::Integer([](O& o) -> int& { return o.search.spread_width; }), 2.0, 8.0},
+    {"offset", kSearch, "Thickness of the skin, angstrom",
+     Row::Real([](O& o) -> double& { return o.double_skin.offset; }), 0.0, 100.0, true},
+    {"penalty", kSearch, "What the core weighs against the skin",
+     Row::Real([](O& o) -> double& { return o.double_skin.penalty; }), 0.0, 1e6},
+    {"radius", kSearch, "Radius of every heavy atom, angstrom",
+     Row::Real([](O& o) -> double& { return o.radius; }), 0.0, 100.0, true},
+    {"propensity", kSearch, "Strength of the residues' interface propensities",
+     Row::Real([](O& o) -> double& { return o.propensity; }), 0.0, 2.0},
+    {"ball_grid", kSearch,
+     "Nodes along the longest side of a body that is a part, which is taken apart into balls",
+     Row::Integer([](O& o) -> int& { return o.ball_grid; }), 2.0, 1024.0},
+    {"rescore", kRanking, "Rank by shape and contact potential, not by shape alone",
+     Row::Switch([](O& o) -> bool& { return o.rescore; })},
+    {"potential", kRanking, "File of the contact potential; none = the fitted one",
+     Row::Text([](O& o) -> std::string& { return o.potential; })},
+    {"polish", kRanking, "Refine kept poses", Row::Switch([](O& o) -> bool& { return o.polish; })},
+    {"poses", kRanking, "Poses reported", Row::Integer([](O& o) -> int& { return o.poses; }), 1.0},
+    {"cluster_radius", kRanking,
+     "Drop poses whose ligand RMSD to a better one is below this, angstrom; 0 = keep all",
+     Row::Real([](O& o) -> double& { return o.cluster_radius; }), 0.0, 1e4},
+    {"ligands", kReading, "Keep cofactors and other hetero groups",
+     Row::Switch([](O& o) -> bool& { return o.read.keep_ligands; })},
+    {"ions", kReading, "Keep ions", Row::Switch([](O& o) -> bool& { return o.read.keep_ions; })},
+    {"random_start", kReading,
+     "Move the ligand at random first, by this seed: for tests on complexes whose ligand already "
+     "sits right",
+     seed_form<O>()},
+};
+
+}  // namespace
+
+std::span<const OptionRow<DockOptions>> dock_option_rows() { return kRows; }
+
+DockOptions dock_preset(const std::string& name) {
+  DockOptions options;
+  if (name == "default") return options;
+  if (name == "fast") {
+    options.search.spacing = 3.5;
+    options.search.per_rotation = 2;
+    return options;
+  }
+  if (name == "thorough") {
+    options.rotations = 54000;
+    options.search.per_rotation = 2;
+    return options;
+  }
+  throw InputError("preset '" + name + "' is not one of fast, default, thorough");
+}
+
+std::string to_json(const DockOptions& options) {
+  return options_json(dock_option_rows(), options).dump();
+}
+
+DockOptions parse_dock_options(const std::string& json) {
+  return parse_options(dock_option_rows(), json);
+}
+
+}  // namespace mortise
