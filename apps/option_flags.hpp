@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/core/errors.hpp"
 #include "mortise/runs/run_kind.hpp"
 
 namespace mortise::app {
@@ -39,7 +40,13 @@ void add_row(CLI::App& command, OptionFlags<Options>& flags, Options defaults,
     command
         .add_option_function<std::string>(
             flag,
-            [add, parse = form->parse](const std::string& text) {
+            [add, flag, parse = form->parse](const std::string& text) {
+              try {
+                Options probe;
+                parse(probe, text);
+              } catch (const InputError& e) {
+                throw InputError(flag + std::string(e.what()).substr(flag.size() - 2));
+              }
               add([parse, text](Options& o) { parse(o, text); });
             },
             row.help)

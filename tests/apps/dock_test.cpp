@@ -79,7 +79,7 @@ TEST_F(Dock, OptionsGoOverThePresetAndAreRecorded) {
   expected.poses = 7;
   expected.double_skin.penalty = 5.5;
   nlohmann::json json = nlohmann::json::parse(to_json(expected));
-  json.update({{"ligands", true}, {"ions", false}, {"random_start", nullptr}});
+  json.update({{"ligands", true}, {"ions", false}, {"random_start", "none"}});
   EXPECT_EQ(nlohmann::json::parse(run.provenance.options_json), json);
   EXPECT_EQ(run.poses.poses.size(), 7U);
 }
