@@ -20,6 +20,7 @@
 #include "mortise/parts/read_part.hpp"
 #include "mortise/parts/sphere_tree.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/balls_file.hpp"
 #include "mortise/store/knots_file.hpp"
 #include "output_guard.hpp"
 
@@ -184,7 +185,10 @@ void run(DecomposeFlags options) {
     if (name != "seconds") file.figures.push_back({name, value.get<double>()});
   if (!options.ply.empty())
     write_file_atomically(options.ply, format_ply(ball_mesh(result.knots.points)));
-  write_knots_file(options.output, file);
+  if (named_xyzr(options.output))
+    write_xyzr(options.output, file.knots);
+  else
+    write_knots_file(options.output, file);
   if (options.common.json)
     std::printf("%s\n", figures.dump().c_str());
   else if (!options.common.quiet)
@@ -199,7 +203,8 @@ void add_decompose(CLI::App& program) {
       "decompose", "Turn a part into few balls and say how far they are from it");
   command.add_option("part", options->part, "STL, OBJ, PLY, OFF or STEP file")->required();
   command
-      .add_option("-o,--output", options->output, "Knots file (HDF5): balls, weights, sphere tree")
+      .add_option("-o,--output", options->output,
+                  "Knots file (HDF5: balls, weights, sphere tree); NAME.xyzr: plain balls as text")
       ->required();
   DecomposeOptions& decompose = options->decompose;
   command.add_option("--grid", decompose.grid, "Grid nodes along the part's longest side")
@@ -240,6 +245,7 @@ void add_decompose(CLI::App& program) {
   add_common_options(command, options->common,
                      "  mortise decompose part.stl -o part.h5\n"
                      "  mortise decompose part.step -o part.h5 --grid 128 --ply balls.ply\n"
+                     "  mortise decompose part.stl -o part.xyzr --weights share\n"
                      "  mortise decompose part.stl -o part.h5 --grid 64 --mu 0.5 --reduction "
                      "containment --json");
   command.callback([options] { run(*options); });

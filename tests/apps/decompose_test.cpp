@@ -5,6 +5,7 @@
 #include "apps/program.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "mortise/parts/read_part.hpp"
+#include "mortise/store/balls_file.hpp"
 #include "mortise/store/knots_file.hpp"
 #include "parts/shapes.hpp"
 
@@ -36,6 +37,16 @@ class Decompose : public Program {
     return false;
   }
 };
+
+TEST_F(Decompose, WritesPlainBallsWhereTheNameAsksForThem) {
+  must("decompose torus.stl -o torus.h5 --grid 24 --weights share --quiet");
+  must("decompose torus.stl -o torus.xyzr --grid 24 --weights share --quiet");
+  const Knots stored = read_balls(path("torus.h5"));
+  const Knots plain = read_balls(path("torus.xyzr"));
+  EXPECT_EQ(plain.points, stored.points);
+  EXPECT_EQ(plain.weights, stored.weights);
+  EXPECT_THAT(read_whole_file(path("torus.xyzr")), ::testing::HasSubstr("# x y z r weight\n"));
+}
 
 TEST_F(Decompose, WritesBallsTreeAndFigures) {
   const nlohmann::json figures =
