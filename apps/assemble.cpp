@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "assembly_loop.hpp"
@@ -17,10 +16,10 @@
 #include "mortise/assembly/hand_path.hpp"
 #include "mortise/assembly/part_field.hpp"
 #include "mortise/core/errors.hpp"
-#include "mortise/metrics/placement.hpp"
 #include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "mortise/parts/read_part.hpp"
+#include "mortise/runs/let_go.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "output_guard.hpp"
 #include "pose_csv.hpp"
@@ -165,64 +164,34 @@ void follow_path(const AssembleFlags& options, const Session& made) {
     std::printf("out of reach %zu steps, not counted under wrench\n", path.size() - compute.steps);
 }
 
-// Random starts around a goal, let go; home is within 2% of the radius and 2 degrees of where the
-// mate rests, or of that moved by the symmetries that the truth file records.
-void let_go(const AssembleFlags& options, const Session& made) {
-  TrueMate truth = goal_of(options);
-  const AssemblySession& session = made.session;
-  const RigidMotion goal = truth.moving_in_fixed;
-  const Rest mate = follow(session, goal, options.follow);
-  const RigidMotion true_place = Placement(made.moving, truth).nearest(mate.pose);
-  truth.moving_in_fixed = mate.pose;
-  const Placement placement(made.moving, truth);
-  const double radius = session.moving_radius();
-  const Eigen::Vector3d& centre = session.moving_centre();
-  std::mt19937_64 random(options.hand.seed);
-  const auto uniform = [&] { return 2.0 * static_cast<double>(random() >> 11) * 0x1.0p-53 - 1.0; };
-  const auto in_ball = [&] {
-    Eigen::Vector3d p;
-    do p << uniform(), uniform(), uniform();
-    while (p.norm() > 1.0);
-    return p;
-  };
-  std::vector<RigidMotion> ends;
-  int home = 0, unmoved = 0;
-  for (int i = 0; i < options.free_starts; ++i) {
-    const Eigen::Vector3d turn = options.start_angle * std::numbers::pi / 180.0 * in_ball();
-    stop_if_interrupted("no poses of rest were written");
-    RigidMotion start = goal;
-    start.rotation = canonical(
-        Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * goal.rotation);
-    start.translation =
-        goal * centre + options.start_shift * radius * in_ball() - start.rotation * centre;
-    const Rest rest = follow(session, start, options.follow);
-    ends.push_back(rest.pose);
-    const auto near = [&](const RigidMotion& place) {
-      return (rest.pose * centre - place * centre).norm() < 0.02 * radius &&
-             rotation_angle(rest.pose.rotation, place.rotation) < 2.0 * std::numbers::pi / 180.0;
-    };
-    if (near(mate.pose)) ++unmoved;
-    if (near(mate.pose) || near(placement.nearest(rest.pose))) ++home;
-  }
-  if (!options.output.empty()) write_pose_csv(options.output, ends);
-  const double drift = (mate.pose * centre - true_place * centre).norm() / radius;
-  // Further off the part does not stay where it belongs: its rest is another one.
-  const bool holds = drift <= 0.2;
+void let_go_and_print(const AssembleFlags& options, const Session& made) {
+  LetGoOptions let_go_options{.starts = options.free_starts,
+                              .shift = options.start_shift,
+                              .angle = options.start_angle * std::numbers::pi / 180.0,
+                              .seed = options.hand.seed,
+                              .follow = options.follow};
+  const LetGoResult result =
+      let_go(made.session, made.moving, goal_of(options), let_go_options, [] {
+        stop_if_interrupted("no poses of rest were written");
+        return true;
+      });
+  if (!options.output.empty()) write_pose_csv(options.output, result.ends);
   if (options.common.json) {
-    const nlohmann::ordered_json figures = {{"starts", options.free_starts},
-                                            {"home", home},
-                                            {"home_without_symmetries", unmoved},
-                                            {"mate_energy", mate.wrench.energy},
-                                            {"mate_drift", drift},
-                                            {"mate_holds", holds}};
+    const nlohmann::ordered_json figures = {
+        {"starts", options.free_starts},
+        {"home", result.home},
+        {"home_without_symmetries", result.home_without_symmetries},
+        {"mate_energy", result.mate.wrench.energy},
+        {"mate_drift", result.drift},
+        {"mate_holds", result.holds}};
     std::printf("%s\n", figures.dump().c_str());
     return;
   }
   if (options.common.quiet) return;
-  std::printf("mate    energy %.4g, rests %.2f%% of the radius from the goal\n", mate.wrench.energy,
-              100.0 * drift);
-  std::printf("starts  %d of %d end %s\n", home, options.free_starts,
-              holds ? "in it" : "there; it is too far off to count as the mate");
+  std::printf("mate    energy %.4g, rests %.2f%% of the radius from the goal\n",
+              result.mate.wrench.energy, 100.0 * result.drift);
+  std::printf("starts  %d of %d end %s\n", result.home, options.free_starts,
+              result.holds ? "in it" : "there; it is too far off to count as the mate");
 }
 
 void run(AssembleFlags options) {
@@ -234,7 +203,7 @@ void run(AssembleFlags options) {
     throw InputError("assemble: --free starts around a pose: give --goal or --mates");
   const Session made = make_session(options);
   if (options.free_starts > 0)
-    let_go(options, made);
+    let_go_and_print(options, made);
   else
     follow_path(options, made);
 }

@@ -2,19 +2,10 @@
 // mortise benchmark: docks a table of known complexes and counts successes.
 #include "mortise/runs/benchmark.hpp"
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <thread>
 
@@ -23,6 +14,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/version.hpp"
 #include "mortise/report/pictures.hpp"
+#include "mortise/runs/processes.hpp"
 #include "mortise/runs/run_kind.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "option_flags.hpp"
@@ -46,8 +38,6 @@ struct BenchmarkFlags {
   bool force = false;
   bool png = false;
 };
-
-constexpr int kInterruptedCode = 130;
 
 std::string text_of(double value) {
   char text[64];
@@ -95,69 +85,6 @@ ResultRow dock_pair(const BenchmarkPair& pair, const DockOptions& docking,
   return result.row;
 }
 
-// One pair at work in a process of its own: its memory and time are then its own, and whatever
-// befalls it spares the others.
-struct Worker {
-  BenchmarkPair pair;
-  int result = -1;  // read end of the pipe that its row comes through
-};
-
-std::pair<pid_t, Worker> start_worker(const BenchmarkPair& pair, const DockOptions& docking,
-                                      const BenchmarkFlags& options,
-                                      const std::string& progress_label) {
-  int ends[2];
-  if (pipe(ends) != 0)
-    throw std::runtime_error(std::string("benchmark: pipe: ") + std::strerror(errno));
-  std::fflush(nullptr);
-  const pid_t parent = getpid();
-  const pid_t process = fork();
-  if (process < 0)
-    throw std::runtime_error(std::string("benchmark: fork: ") + std::strerror(errno));
-  if (process > 0) {
-    close(ends[1]);
-    return {process, {pair, ends[0]}};
-  }
-  close(ends[0]);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
-  int code = getppid() == parent ? 0 : kInterruptedCode;
-  ResultRow row = result_row(pair);
-  try {
-    if (code == 0) row = dock_pair(pair, docking, options, progress_label);
-  } catch (const Interrupted&) {
-    code = kInterruptedCode;
-  } catch (const InputError& e) {
-    row["error"] = e.what();
-  } catch (const std::exception& e) {
-    row["error"] = std::string("internal error: ") + e.what();
-  }
-  const std::string line = csv_line(row);  // far below what a pipe holds
-  if (write(ends[1], line.data(), line.size()) != static_cast<ssize_t>(line.size())) code = 2;
-  _exit(code);  // the parent's objects are not ours to destroy
-}
-
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-// The row of a worker that has ended; none if it was interrupted.
-std::optional<ResultRow> collect(const Worker& worker, int status, const rusage& usage) {
-  std::string line;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = read(worker.result, buffer, sizeof buffer)) > 0;)
-    line.append(buffer, static_cast<std::size_t>(n));
-  close(worker.result);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kInterruptedCode) return {};
-  ResultRow row = result_row(worker.pair);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-    row = parse_result_row(line);
-  else
-    row["error"] = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
-                                       : "ended with code " + std::to_string(WEXITSTATUS(status));
-  row["cpu_seconds"] = text_of(seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime));
-  row["peak_memory_mb"] = text_of(static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6);
-  return row;
-}
-
 void print_row(const ResultRow& row, const BenchmarkFlags& options) {
   if (options.common.quiet) return;
   if (!row["error"].empty())
@@ -175,37 +102,39 @@ void print_row(const ResultRow& row, const BenchmarkFlags& options) {
   }
 }
 
-// Docks the pairs, at most options.jobs at a time, and gives each row to `keep` as it comes. On
-// Ctrl-C the pairs at work are dropped.
+// Docks the pairs, at most options.jobs at a time, each in a process of its own: its memory and
+// time are then its own. Gives each row to `keep` as it comes; on Ctrl-C pairs at work are dropped.
 void dock_pairs(const std::vector<BenchmarkPair>& pairs, const DockOptions& docking,
                 const BenchmarkFlags& options, const std::function<void(const ResultRow&)>& keep) {
-  std::map<pid_t, Worker> workers;
-  std::size_t next = 0;
-  bool told = false;
-  while (true) {
-    while (!interrupted() && next < pairs.size() &&
-           workers.size() < static_cast<std::size_t>(options.jobs)) {
-      workers.insert(start_worker(
-          pairs[next], docking, options,
-          std::to_string(next + 1) + "/" + std::to_string(pairs.size()) + " " + pairs[next].name));
-      ++next;
+  JobHooks hooks;
+  hooks.work = [&](std::size_t i) {
+    ResultRow row = result_row(pairs[i]);
+    const std::string label =
+        std::to_string(i + 1) + "/" + std::to_string(pairs.size()) + " " + pairs[i].name;
+    try {
+      row = dock_pair(pairs[i], docking, options, label);
+    } catch (const Interrupted&) {
+      throw JobStopped();
+    } catch (const InputError& e) {
+      row["error"] = e.what();
+    } catch (const std::exception& e) {
+      row["error"] = std::string("internal error: ") + e.what();
     }
-    if (interrupted() && !told) {  // a terminal tells them itself; others tell only us
-      for (const auto& [process, worker] : workers) kill(process, SIGTERM);
-      told = true;
-    }
-    if (workers.empty()) return;
-    int status = 0;
-    rusage usage = {};
-    const pid_t process = wait4(-1, &status, 0, &usage);
-    const auto worker = workers.find(process);
-    if (process < 0 && errno != EINTR)
-      throw std::runtime_error(std::string("benchmark: wait: ") + std::strerror(errno));
-    if (worker == workers.end()) continue;
-    const std::optional<ResultRow> row = collect(worker->second, status, usage);
-    workers.erase(worker);
-    if (row) keep(*row);
-  }
+    return csv_line(row);
+  };
+  hooks.done = [&](std::size_t i, const JobResult& result) {
+    if (result.stopped) return;
+    ResultRow row = result_row(pairs[i]);
+    if (result.failure.empty())
+      row = parse_result_row(result.text);
+    else
+      row["error"] = result.failure;
+    row["cpu_seconds"] = text_of(result.cpu_seconds);
+    row["peak_memory_mb"] = text_of(result.peak_memory_mb);
+    keep(row);
+  };
+  hooks.stop = interrupted;
+  run_in_processes(pairs.size(), options.jobs, hooks);
 }
 
 std::string summary_path(const std::string& output) {

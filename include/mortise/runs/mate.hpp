@@ -47,11 +47,11 @@ struct MateOptions {
                                     ///< that holds backs it; 0 to 1
   double penetration_weight = 3.0;  ///< what an area of penetration one tolerance deep costs
                                     ///< against an area of contact; >= 0
-  int samples = 3000;            ///< points on the smaller surface; >= 100
-  int polished = 100;            ///< placements polished to the end; >= 1
-  int poses = 100;               ///< reported; >= 1
-  double cluster_radius = 0.02;  ///< placements whose RMSD to a better one is below are dropped
-  int check = 10;                ///< best poses whose contact is measured exactly; >= 0
+  int samples = 3000;               ///< points on the smaller surface; >= 100
+  int polished = 100;               ///< placements polished to the end; >= 1
+  int poses = 100;                  ///< reported; >= 1
+  double cluster_radius = 0.02;     ///< placements whose RMSD to a better one is below are dropped
+  int check = 10;                   ///< best poses whose contact is measured exactly; >= 0
   double deviation = 0.0;   ///< of a STEP file's tessellation, length unit of the file; 0 = the
                             ///< reader's default
   bool allow_open = false;  ///< accept parts that cannot be closed; inside goes by winding number
