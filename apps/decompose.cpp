@@ -16,9 +16,8 @@
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "mortise/parts/hausdorff.hpp"
-#include "mortise/parts/mesh_solid.hpp"
-#include "mortise/parts/read_part.hpp"
 #include "mortise/parts/sphere_tree.hpp"
+#include "mortise/runs/body_forms.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/balls_file.hpp"
 #include "mortise/store/knots_file.hpp"
@@ -141,14 +140,15 @@ void run(DecomposeFlags options) {
   options.decompose.reduction = kReductions.at(options.reduction);
   options.decompose.weights = kWeights.at(options.weights);
   options.decompose.threads = options.common.threads;
-  const ReadPartResult part =
-      read_part(options.part, {.repair = {.allow_open = options.allow_open}});
+  const Body body = read_body(options.part, {.part = {.repair = {.allow_open = options.allow_open}},
+                                             .threads = options.common.threads});
+  const Part part = body_part(body);
   if (!options.common.quiet)
-    for (const std::string& decision : part.decisions)
+    for (const std::string& decision : body.decisions)
       std::fprintf(stderr, "mortise: %s: %s\n", options.part.c_str(), decision.c_str());
 
   const Clock::time_point start = Clock::now();
-  const MeshSolid solid(part.mesh, {.threads = options.common.threads});
+  const Solid& solid = *part.solid;
   const CountedSolid counted(solid, node_count(solid.bounds(), options.decompose.grid),
                              make_progress("distances", options.common));
   const Decomposition result = decompose(counted, options.decompose);
@@ -178,7 +178,7 @@ void run(DecomposeFlags options) {
   KnotsFile file;
   file.provenance = make_provenance(command_line(), resolved(options).dump());
   file.source_path = options.part;
-  file.source_sha256 = sha256_of_file(options.part);
+  file.source_sha256 = body.record.sha256;
   file.knots = result.knots;
   file.tree = tree;
   for (const auto& [name, value] : figures.items())
@@ -201,7 +201,10 @@ void add_decompose(CLI::App& program) {
   auto options = std::make_shared<DecomposeFlags>();
   CLI::App& command = *program.add_subcommand(
       "decompose", "Turn a part into few balls and say how far they are from it");
-  command.add_option("part", options->part, "STL, OBJ, PLY, OFF or STEP file")->required();
+  command
+      .add_option("part", options->part,
+                  "STL, OBJ, PLY, OFF or STEP file; or balls, or a molecule, whose union is taken")
+      ->required();
   command
       .add_option("-o,--output", options->output,
                   "Knots file (HDF5: balls, weights, sphere tree); NAME.xyzr: plain balls as text")

@@ -17,12 +17,7 @@ void add_dock(CLI::App& program) {
        "  mortise dock receptor.pdb ligand.pdb -o run.h5 --rotations 54000 --json\n"
        "  mortise dock -o run.h5 --resume\n"
        "Ctrl-C saves the run so far, with the best poses of it (without, at a second Ctrl-C),\n"
-       "and exits with 130.",
-       [](const std::string& output) {
-         return "  mortise export " + output + " --format pdb --top 10 --complex\n" +
-                "  mortise evaluate " + output +
-                " --reference-fixed FILE --reference-moving FILE\n";
-       }});
+       "and exits with 130."});
 }
 
 }  // namespace mortise::app

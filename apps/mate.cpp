@@ -19,11 +19,7 @@ void add_mate(CLI::App& program) {
        "Score: facing surfaces in contact less what penetrates, relative to the smaller surface.\n"
        "Ctrl-C saves the run so far, with the best placements of it (without, at a second "
        "Ctrl-C),\n"
-       "and exits with 130.",
-       [](const std::string& output) {
-         return "  mortise export " + output + " --format stl --pose 1 --complex\n" +
-                "  mortise evaluate " + output + " --reference-pose FILE\n";
-       }});
+       "and exits with 130."});
 }
 
 }  // namespace mortise::app

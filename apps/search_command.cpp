@@ -59,6 +59,15 @@ void print_json(const std::string& output, const Run& run, const Json& more) {
   std::printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
+// Commands to go on with, one per line.
+std::string next_steps(const Run& run, const std::string& output) {
+  return of_molecules(run) ? "  mortise export " + output + " --format pdb --top 10 --complex\n" +
+                                 "  mortise evaluate " + output +
+                                 " --reference-fixed FILE --reference-moving FILE\n"
+                           : "  mortise export " + output + " --format stl --pose 1 --complex\n" +
+                                 "  mortise evaluate " + output + " --reference-pose FILE\n";
+}
+
 void print_result(const SearchWords& words, const std::string& output, const Run& run,
                   int threads) {
   std::printf(
@@ -71,7 +80,7 @@ void print_result(const SearchWords& words, const std::string& output, const Run
   std::printf("found     %zu poses in %.1f s\n\n%s\n", run.poses.poses.size(), run.seconds,
               pose_table(run, 10).c_str());
   std::printf("wrote %s; to go on:\n%s", output.c_str(),
-              words.next_steps(shell_word(output)).c_str());
+              next_steps(run, shell_word(output)).c_str());
 }
 
 std::string size_text(const Body& body) {

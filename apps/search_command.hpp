@@ -21,7 +21,6 @@ struct SearchWords {
   const char* unit;          ///< of lengths: " A", or nothing
   const char* preset_help;   ///< added to the help of --preset
   const char* examples;
-  std::string (*next_steps)(const std::string& output);  ///< commands to go on with, one per line
 };
 
 /// Adds the command of a kind of run.
