@@ -10,6 +10,10 @@
 #include "commands.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/read_molecule.hpp"
+#include "mortise/parts/diameter.hpp"
+#include "mortise/parts/read_part.hpp"
+#include "mortise/store/balls_file.hpp"
+#include "mortise/store/body.hpp"
 #include "mortise/store/knots_file.hpp"
 #include "mortise/store/run_file.hpp"
 
@@ -111,7 +115,7 @@ Json describe_structure(const MoleculeSpec& spec) {
     read = read_molecule(spec, {.keep_hydrogens = true, .keep_waters = true});
   } catch (const InputError& e) {
     throw InputError(std::string(e.what()) +
-                     " (info reads run files, knots files and PDB or mmCIF structures)");
+                     " (info reads run and knots files, meshes, STEP, .xyzr, PDB and mmCIF)");
   }
   const std::vector<Atom>& atoms = read.molecule.atoms;
   struct Chain {
@@ -146,6 +150,22 @@ Json describe_structure(const MoleculeSpec& spec) {
           {"decisions", read.decisions}};
 }
 
+Json describe_part(const std::string& path) {
+  const ReadPartResult part = read_part(path, {.repair = {.allow_open = true}});
+  const Eigen::Vector3d low = part.mesh.vertices.rowwise().minCoeff();
+  const Eigen::Vector3d high = part.mesh.vertices.rowwise().maxCoeff();
+  return {{"type", "part"},
+          {"triangles", part.mesh.size()},
+          {"vertices", part.mesh.vertices.cols()},
+          {"closed", part.closed},
+          {"volume", part.volume},
+          {"unit", part.unit},
+          {"diameter", diameter_of(part.mesh.vertices)},
+          {"low", {low[0], low[1], low[2]}},
+          {"high", {high[0], high[1], high[2]}},
+          {"decisions", part.decisions}};
+}
+
 Json describe(const std::string& file) {
   const MoleculeSpec spec = parse_molecule_spec(file);
   switch (stored_kind(spec.path)) {
@@ -159,6 +179,9 @@ Json describe(const std::string& file) {
     case StoredKind::kNotHdf5:
       break;
   }
+  if (body_kind(file) == BodyKind::kBalls)
+    return {{"type", "balls"}, {"knots", knots_json(read_balls(spec.path))}};
+  if (body_kind(file) == BodyKind::kPart) return describe_part(spec.path);
   return describe_structure(spec);
 }
 
@@ -257,6 +280,23 @@ void print_structure(const std::string& file, const Json& all) {
   }
 }
 
+void print_balls(const std::string& file, const Json& all) {
+  std::printf("%s: balls\n", file.c_str());
+  line("balls", knots_text(all["knots"]));
+}
+
+void print_part(const std::string& file, const Json& all) {
+  std::printf("%s: part, %s\n", file.c_str(),
+              all["closed"].get<bool>() ? "closed" : "open: inside goes by the winding number");
+  const std::string unit = all["unit"];
+  line("surface", all["triangles"].dump() + " triangles, " + all["vertices"].dump() + " vertices");
+  line("unit", unit.empty() ? "not in the file" : unit);
+  line("box", vector_text(all["low"], "%.6g") + " to " + vector_text(all["high"], "%.6g"));
+  line("diameter", number(all["diameter"]));
+  if (all["closed"].get<bool>()) line("volume", number(all["volume"]));
+  for (const Json& decision : all["decisions"]) line("note", decision);
+}
+
 void execute(const InfoFlags& options) {
   const Json all = describe(options.file);
   if (options.common.json) {
@@ -265,21 +305,28 @@ void execute(const InfoFlags& options) {
   }
   if (options.common.quiet) return;
   const std::string type = all["type"];
-  (type == "run" ? print_run : type == "knots" ? print_knots : print_structure)(options.file, all);
+  const auto print = type == "run"     ? print_run
+                     : type == "knots" ? print_knots
+                     : type == "balls" ? print_balls
+                     : type == "part"  ? print_part
+                                       : print_structure;
+  print(options.file, all);
 }
 
 }  // namespace
 
 void add_info(CLI::App& program) {
   auto options = std::make_shared<InfoFlags>();
-  CLI::App& command =
-      *program.add_subcommand("info", "Show what a run, knots or structure file holds");
+  CLI::App& command = *program.add_subcommand(
+      "info", "Show what a file holds: a run, a body taken apart, a molecule, a part, balls");
   command
-      .add_option("file", options->file, "Run file, knots file, or structure with model and chains")
+      .add_option("file", options->file,
+                  "Run or knots file, mesh, STEP, .xyzr, or structure with model and chains")
       ->required();
   add_common_options(command, options->common,
                      "  mortise info run.h5\n"
                      "  mortise info complex.pdb:A,B\n"
+                     "  mortise info bracket.step\n"
                      "  mortise info run.h5 --json");
   command.callback([options] { execute(*options); });
 }

@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kMoleculeEndings = {".pdb", ".ent", ".cif", ".mmcif"};
 constexpr std::array<std::string_view, 6> kPartEndings = {".stl", ".obj",  ".ply",
                                                           ".off", ".step", ".stp"};
-constexpr std::array<std::string_view, 3> kPartWords = {"solid", "ply", "OFF"};
+constexpr std::array<std::string_view, 4> kPartWords = {"solid", "ply", "OFF", "ISO-10303"};
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -91,8 +91,7 @@ BodyKind body_kind(const std::string& spec) {
   if (ends_in(name, kMoleculeEndings)) return BodyKind::kMolecule;
   if (ends_in(name, kPartEndings)) return BodyKind::kPart;
   if (is_balls_file(path)) return BodyKind::kBalls;
-  if (is_step_file(path)) return BodyKind::kPart;
-  std::string head(8, '\0');
+  std::string head(16, '\0');
   std::ifstream(path, std::ios::binary)
       .read(head.data(), static_cast<std::streamsize>(head.size()));
   const bool mesh = std::any_of(kPartWords.begin(), kPartWords.end(),

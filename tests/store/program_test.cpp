@@ -177,9 +177,24 @@ TEST_F(Program, InfoShowsRunsKnotsAndStructures) {
   EXPECT_EQ(nlohmann::json::parse(mortise("info ligand.pdb --json").out)["type"], "structure");
 }
 
+TEST_F(Program, InfoShowsPartsAndBalls) {
+  std::ofstream(scratch_ / "cube.obj") << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\n"
+                                          "v 2 2 2\nv 0 2 2\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\n"
+                                          "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const nlohmann::json part = nlohmann::json::parse(mortise("info cube.obj --json").out);
+  EXPECT_EQ(part["type"], "part");
+  EXPECT_EQ(part["triangles"], 12);
+  EXPECT_TRUE(part["closed"].get<bool>());
+  EXPECT_NEAR(part["volume"].get<double>(), 8.0, 1e-12);
+  EXPECT_NEAR(part["diameter"].get<double>(), std::sqrt(12.0), 1e-9);
+  EXPECT_THAT(mortise("info cube.obj").out, AllOf(HasSubstr("part, closed"), HasSubstr("volume")));
+  std::ofstream(scratch_ / "two.xyzr") << "0 0 0 1\n1 0 0 2\n";
+  EXPECT_THAT(mortise("info two.xyzr").out, HasSubstr("2 knots, radii 1.000 to 2.000"));
+}
+
 TEST_F(Program, InfoSaysWhatItCannotRead) {
   std::ofstream(scratch_ / "notes.txt") << "hello\n";
-  expect_user_error("info notes.txt", "info reads run files, knots files and PDB or mmCIF");
+  expect_user_error("info notes.txt", "info reads run and knots files, meshes");
   expect_user_error("info none.pdb", "no such file");
   fs::resize_file(scratch_ / "run.h5", fs::file_size(scratch_ / "run.h5") / 2);
   expect_user_error("info run.h5", "truncated: expected");
