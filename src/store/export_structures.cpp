@@ -12,10 +12,13 @@
 namespace mortise {
 namespace {
 
-void refuse_parts(const Run& run, const char* format) {
-  if (!of_molecules(run))
-    throw InputError(std::string("format ") + format + " is for molecules; this is a " + run.kind +
-                     " run of other bodies");
+void expect_molecules(const Run& run, const char* format, const ExportOptions& options) {
+  for (const auto& [record, name] :
+       {std::pair{&run.moving, "moving"}, std::pair{&run.fixed, "fixed"}})
+    if ((record == &run.moving || options.complex) && record->kind != "molecule")
+      throw InputError(std::string("format ") + format + " is for molecules; the " + name +
+                       " body of this " + run.kind + " run is " +
+                       (record->kind == "part" ? "a part" : record->kind));
 }
 
 // What a reader should know of the file, one line each, for REMARKs or comments.
@@ -58,7 +61,7 @@ int count_lines(const std::string& text) {
 
 std::string export_pdb(const Run& run, const Molecule& fixed, const Molecule& moving,
                        const ExportOptions& options) {
-  refuse_parts(run, "pdb");
+  expect_molecules(run, "pdb", options);
   const std::vector<std::size_t> poses = chosen_poses(run, ExportFormat::kPdb, options);
   const Molecule written = options.complex ? with_distinct_chains(moving, fixed) : moving;
   std::string text;
@@ -75,7 +78,7 @@ std::string export_pdb(const Run& run, const Molecule& fixed, const Molecule& mo
 
 std::string export_mmcif(const Run& run, const Molecule& fixed, const Molecule& moving,
                          const ExportOptions& options) {
-  refuse_parts(run, "cif");
+  expect_molecules(run, "cif", options);
   const std::vector<std::size_t> poses = chosen_poses(run, ExportFormat::kMmcif, options);
   const Molecule written = options.complex ? with_distinct_chains(moving, fixed) : moving;
   std::string text;
