@@ -96,17 +96,15 @@ std::string export_text(const Run& run, ExportFormat format, const ExportFlags& 
       break;
   }
   (void)chosen_poses(run, format, options.choice);  // fail before the molecules are read
-  if (!of_molecules(run))
-    throw InputError("format " + options.format + " is for molecules; this is a " + run.kind +
-                     " run of other bodies");
+  // What is no molecule is refused below, by name.
+  const auto molecule = [&](const BodyRecord& record, const char* name, const std::string& path) {
+    return record.kind == "molecule"
+               ? *read_input_body(record, run.provenance, name, {path, options.force}).molecule()
+               : Molecule();
+  };
   Molecule fixed;
-  if (options.choice.complex)
-    fixed =
-        *read_input_body(run.fixed, run.provenance, "fixed", {options.fixed_path, options.force})
-             .molecule();
-  const Molecule moving =
-      *read_input_body(run.moving, run.provenance, "moving", {options.moving_path, options.force})
-           .molecule();
+  if (options.choice.complex) fixed = molecule(run.fixed, "fixed", options.fixed_path);
+  const Molecule moving = molecule(run.moving, "moving", options.moving_path);
   return format == ExportFormat::kPdb ? export_pdb(run, fixed, moving, options.choice)
                                       : export_mmcif(run, fixed, moving, options.choice);
 }

@@ -61,11 +61,13 @@ void print_json(const std::string& output, const Run& run, const Json& more) {
 
 // Commands to go on with, one per line.
 std::string next_steps(const Run& run, const std::string& output) {
-  return of_molecules(run) ? "  mortise export " + output + " --format pdb --top 10 --complex\n" +
-                                 "  mortise evaluate " + output +
-                                 " --reference-fixed FILE --reference-moving FILE\n"
-                           : "  mortise export " + output + " --format stl --pose 1 --complex\n" +
-                                 "  mortise evaluate " + output + " --reference-pose FILE\n";
+  if (of_molecules(run))
+    return "  mortise export " + output + " --format pdb --top 10 --complex\n" +
+           "  mortise evaluate " + output + " --reference-fixed FILE --reference-moving FILE\n";
+  if (run.moving.kind == "molecule")
+    return "  mortise export " + output + " --format pdb --top 10\n";
+  return "  mortise export " + output + " --format stl --pose 1 --complex\n" +
+         "  mortise evaluate " + output + " --reference-pose FILE\n";
 }
 
 void print_result(const SearchWords& words, const std::string& output, const Run& run,
