@@ -144,4 +144,11 @@ Eigen::Matrix3Xd atom_positions(const Molecule& molecule) {
   return positions;
 }
 
+Eigen::Matrix4Xd atom_balls(const Molecule& molecule) {
+  Eigen::Matrix4Xd balls(4, static_cast<Eigen::Index>(molecule.atoms.size()));
+  balls.topRows<3>() = atom_positions(molecule);
+  balls.row(3) = atom_radii(molecule).transpose();
+  return balls;
+}
+
 }  // namespace mortise

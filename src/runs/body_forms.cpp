@@ -61,11 +61,7 @@ Knots body_knots(const Body& body, const ToKnotsOptions& options, int ball_grid)
 Part body_part(const Body& body) {
   if (const Part* part = body.part()) return *part;
   if (const Knots* balls = body.balls()) return ball_part(balls->points);
-  const Molecule& molecule = *body.molecule();
-  Eigen::Matrix4Xd atoms(4, static_cast<Eigen::Index>(molecule.atoms.size()));
-  atoms.topRows<3>() = atom_positions(molecule);
-  atoms.row(3) = atom_radii(molecule).transpose();
-  return ball_part(atoms);
+  return ball_part(atom_balls(*body.molecule()));
 }
 
 }  // namespace mortise

@@ -163,11 +163,7 @@ Body read_input_body(const BodyRecord& record, const Provenance& provenance,
 TriangleMesh body_mesh(const Body& body) {
   if (const Part* part = body.part()) return part->mesh;
   if (const Knots* balls = body.balls()) return ball_mesh(balls->points);
-  const Molecule& molecule = *body.molecule();
-  Eigen::Matrix4Xd atoms(4, static_cast<Eigen::Index>(molecule.atoms.size()));
-  atoms.topRows<3>() = atom_positions(molecule);
-  atoms.row(3) = atom_radii(molecule).transpose();
-  return ball_mesh(atoms);
+  return ball_mesh(atom_balls(*body.molecule()));
 }
 
 }  // namespace mortise

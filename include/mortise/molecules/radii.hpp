@@ -29,4 +29,7 @@ namespace mortise {
 /// 3 x N positions, angstrom.
 [[nodiscard]] Eigen::Matrix3Xd atom_positions(const Molecule& molecule);
 
+/// 4 x N balls: position and radius, angstrom.
+[[nodiscard]] Eigen::Matrix4Xd atom_balls(const Molecule& molecule);
+
 }  // namespace mortise
