@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `dock` and `mate` as one command that differs in its words.
+// The commands dock and mate as one, which differ in their words.
 #pragma once
 
 #include <string>

@@ -7,8 +7,9 @@ Usage: docking_speed.py [--program MORTISE] [--table pairs.csv] [--only NAME,...
 
 The pairs are the two samples of molecules/ and five of a table as `mortise benchmark` takes it; those that are not
 there are left out with a message. Every run starts from the same random orientation of the ligand (seed 1). A row is
-the run of median CPU time among N (default 3), on one thread; the last column is a further run on all cores. The stages
-are wall times of the one thread: they mean something only on an otherwise idle machine, CPU time less so.
+the run of median CPU time among N (default 3), on one thread, with the CPU seconds divided among the stages by their
+shares of the wall time, so that other work on the machine does not count. The wall time is that of a further run on all
+cores; it means something on an otherwise idle machine only.
 """
 
 import argparse
@@ -25,8 +26,7 @@ BENCHMARK_PAIRS = ("1JTG", "1A2K", "1ML0", "2G77", "4G6M")
 # Column and the figures of the run file that it sums up.
 STAGES = (("read", ("seconds_read",)), ("set up", ("seconds_plan", "seconds_prepare")), ("search", ("seconds_search",)),
           ("contacts", ("seconds_rank_contact",)), ("polish", ("seconds_rank_polish",)))
-COLUMNS = ("pair", "atoms", "grid", "CPU, s", *(f"{name}, s" for name, _ in STAGES), "whole, s",
-           f"whole on {os.cpu_count()} cores, s", "peak MB")
+COLUMNS = ("pair", "atoms", "grid", "CPU, s", *(name for name, _ in STAGES), f"wall on {os.cpu_count()} cores, s", "peak MB")
 
 
 def note(text):
@@ -77,9 +77,10 @@ def dock(program, fixed, moving, threads, run_file, further):
 def table_row(name, runs, many):
     """Cells for COLUMNS. @param runs on one thread; many: the run on all cores"""
     f = sorted(runs, key=lambda run: run["cpu_seconds"])[(len(runs) - 1) // 2]
-    stages = [sum(f.get(key, 0.0) for key in keys) for _, keys in STAGES]
+    share = f["cpu_seconds"] / f["seconds"]
+    stages = [share * sum(f.get(key, 0.0) for key in keys) for _, keys in STAGES]
     return (name, " + ".join(f"{n:,}" for n in f["atoms"]), " x ".join(f"{n:.0f}" for n in f["grid"]),
-            f"{f['cpu_seconds']:.1f}", *(f"{s:.2f}" for s in stages), f"{f['seconds']:.1f}", f"{many['seconds']:.1f}",
+            f"{f['cpu_seconds']:.1f}", *(f"{s:.2f}" for s in stages), f"{many['seconds']:.1f}",
             f"{f['peak_memory_mb']:.0f}")
 
 

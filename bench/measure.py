@@ -31,7 +31,7 @@ import time
 import measurements
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-MARKED = re.compile(r"<!-- measure: ([a-z_]+) -->\n(.*?)<!-- /measure -->", re.DOTALL)
+MARKED = re.compile(r"<!-- measure: ([a-z0-9_]+) -->\n(.*?)<!-- /measure -->", re.DOTALL)
 
 
 def note(text):
