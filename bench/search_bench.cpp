@@ -2,9 +2,11 @@
 // The rotation loop of docking: seconds per rotation against bare FFTW transforms of the same grid,
 // and where they go.
 //
-//   search_bench [--threads N] [--rotations N] [--spacing S] [FIXED MOVING]...
+//   search_bench [--threads N] [--rotations N] [--spacing S] [--radius R] [--offset O]... [--lift
+//   4d]
+//                [FIXED MOVING]...
 //
-// Without files: the sample pairs of molecules/.
+// Radius 0: each atom's own. Without files: the sample pairs of molecules/.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <exception>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -64,25 +65,26 @@ Stages stages_of(const std::vector<Channel>& channels, RotationSearch& search,
                  const RotationSet& rotations, const SearchOptions& o, int count) {
   Components components =
       make_components(channels, search.search_from_fixed(), search.grid_size(), o.spacing,
-                      {.low_pass = {.cutoff = o.cutoff}, .threads = 1});
+                      {.radius_tolerance = o.radius_tolerance,
+                       .low_pass = {.cutoff = o.cutoff},
+                       .offsets = o.offsets,
+                       .threads = 1});
   components.points = search.search_from_moving() * components.points;
-  const auto parts = static_cast<int>(components.parts.size());
+  const auto parts = static_cast<int>(components.parts.size()),
+             offsets = static_cast<int>(o.offsets.size());
   Correlator correlator(search.grid_size(), o.spacing,
-                        components.points.colwise().norm().maxCoeff() + 1e-6, parts,
-                        o.spread_width);
+                        components.points.colwise().norm().maxCoeff() + 1e-6, parts, o.spread_width,
+                        offsets);
   const auto [nx, ny, nz] = search.grid_size();
   std::vector<Eigen::VectorXf> weights;
   for (int p = 0; p < parts; ++p) {
     weights.push_back(components.parts[p].weights);
-    correlator.set_fixed(p, [&, nx = nx, ny = ny, nz = nz](int kx, int ky, int kz) {
-      const double k =
-          std::hypot(kx / (nx * o.spacing), ky / (ny * o.spacing), kz / (nz * o.spacing));
-      const double window =
-          k < o.cutoff ? 0.5 * (1.0 + std::cos(std::numbers::pi * k / o.cutoff)) : 0.0;
-      const std::size_t at =
-          (static_cast<std::size_t>(kx + nx / 2) * ny + (ky + ny / 2)) * (nz / 2 + 1) + kz;
-      return components.parts[p].spectra[0][at] * window;
-    });
+    for (int n = 0; n < offsets; ++n)
+      correlator.set_fixed(p, n, [&, nx = nx, ny = ny, nz = nz](int kx, int ky, int kz) {
+        const std::size_t at =
+            (static_cast<std::size_t>(kx + nx / 2) * ny + (ky + ny / 2)) * (nz / 2 + 1) + kz;
+        return components.parts[p].spectra[n][at];
+      });
   }
   Correlator::Workspace w(correlator);
   Stages sum;
@@ -106,18 +108,22 @@ Stages stages_of(const std::vector<Channel>& channels, RotationSearch& search,
     }
     correlator.multiply(w);
     lap(sum.multiply);
-    correlator.backward_yz(w);
-    lap(sum.backward_yz);
-    (void)correlator.take_peaks(w, o.per_rotation, o.separation / o.spacing);
-    lap(sum.peaks);
+    for (int n = 0; n < offsets; ++n) {
+      correlator.backward_yz(n, w);
+      lap(sum.backward_yz);
+      (void)w.box.take_peaks(o.per_rotation, o.separation / o.spacing);
+      lap(sum.peaks);
+    }
   }
   return sum;
 }
 
 void measure(const std::string& fixed_path, const std::string& moving_path, int count,
-             const SearchOptions& options) {
-  const Knots fixed = to_knots(read_molecule(parse_molecule_spec(fixed_path)).molecule);
-  const Knots moving = to_knots(read_molecule(parse_molecule_spec(moving_path)).molecule);
+             double radius, const SearchOptions& options) {
+  const auto knots = [&](const std::string& path) {
+    return to_knots(read_molecule(parse_molecule_spec(path)).molecule, {.radius = radius});
+  };
+  const Knots fixed = knots(fixed_path), moving = knots(moving_path);
   const std::vector<Channel> channels = {double_skin_channel(fixed, moving)};
   const RotationSet rotations = rotation_set(count);
   RotationSearch search(channels, rotations.quaternions, options);
@@ -128,17 +134,19 @@ void measure(const std::string& fixed_path, const std::string& moving_path, int 
   const double patient = bare_seconds(search.grid_size(), PlanRigor::kPatient);
   std::printf("  bare FFTW, one r2c + one c2r: %.1f us MEASURE, %.1f us PATIENT\n", 1e6 * measured,
               1e6 * patient);
-  const Stages s = stages_of(channels, search, rotations, options, count);
-  const double total = s.rotate + s.spread + s.forward_zy + s.multiply + s.backward_yz + s.peaks;
-  const auto line = [&](const char* name, double seconds) {
-    std::printf("    %-24s %8.1f us %5.1f%%\n", name, 1e6 * seconds, 100.0 * seconds / total);
-  };
-  line("rotate", s.rotate);
-  line("spread", s.spread);
-  line("forward z, y", s.forward_zy);
-  line("x, multiply, x", s.multiply);
-  line("backward y, z, row maxima", s.backward_yz);
-  line("peaks", s.peaks);
+  if (options.lift == SearchLift::kCompressed) {
+    const Stages s = stages_of(channels, search, rotations, options, count);
+    const double total = s.rotate + s.spread + s.forward_zy + s.multiply + s.backward_yz + s.peaks;
+    const auto line = [&](const char* name, double seconds) {
+      std::printf("    %-24s %8.1f us %5.1f%%\n", name, 1e6 * seconds, 100.0 * seconds / total);
+    };
+    line("rotate", s.rotate);
+    line("spread", s.spread);
+    line("forward z, y", s.forward_zy);
+    line("x, multiply, x", s.multiply);
+    line("backward y, z, row maxima", s.backward_yz);
+    line("peaks", s.peaks);
+  }
   const double cpu = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   const double wall = seconds_of(CLOCK_MONOTONIC);
   search.run();
@@ -156,6 +164,8 @@ int run(int argc, char** argv) {
   const DockOptions defaults;
   SearchOptions options = defaults.search;
   int count = 3600;
+  double radius = defaults.radius;
+  std::vector<double> offsets;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string arg = argv[i];
@@ -164,11 +174,18 @@ int run(int argc, char** argv) {
       options.threads = std::atoi(argv[++i]);
     else if (arg == "--rotations" && !last)
       count = std::atoi(argv[++i]);
+    else if (arg == "--radius" && !last)
+      radius = std::atof(argv[++i]);
+    else if (arg == "--offset" && !last)
+      offsets.push_back(std::atof(argv[++i]));
+    else if (arg == "--lift" && !last)
+      options.lift = argv[++i] == std::string("4d") ? SearchLift::k4d : SearchLift::kCompressed;
     else if (arg == "--spacing" && !last)
       options.spacing = std::atof(argv[++i]);
     else
       files.push_back(arg);
   }
+  if (!offsets.empty()) options.offsets = offsets;
   if (files.empty()) {
     const std::string here = std::string(MORTISE_SOURCE_DIR) + "/molecules/";
     files = {here + "1hpv_receptor.pdb", here + "1hpv_ligand.pdb", here + "1tii_receptor.pdb.gz",
@@ -178,7 +195,8 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "search_bench: expected pairs of files\n");
     return 1;
   }
-  for (std::size_t i = 0; i < files.size(); i += 2) measure(files[i], files[i + 1], count, options);
+  for (std::size_t i = 0; i < files.size(); i += 2)
+    measure(files[i], files[i + 1], count, radius, options);
   return 0;
 }
 

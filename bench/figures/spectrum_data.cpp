@@ -160,7 +160,7 @@ class Sums {
   }
   ConeSeries fitted() const {
     const auto [least, most] = radii();
-    return fitted_cone(RadialKernel(kAlpha), largest_, least, most, kKernelError);
+    return fitted_cone(transform_of(RadialKernel(kAlpha)), largest_, least, most, kKernelError);
   }
   // |w| of mode i, first axis slowest; the last axis has `last` modes from -`below` on.
   double length(Eigen::Index i, Eigen::Index last, Eigen::Index below) const {

@@ -27,6 +27,12 @@ Channel double_skin_channel(const Knots& fixed, const Knots& moving,
                             const DoubleSkinOptions& options) {
   const RadialTransform transform = double_skin_transform(options);
   Channel channel{"shape", 1.0, fixed, moving, transform, transform, 0.0};
+  channel.pair = [options](double d, double a, double b) {
+    const double r0 = options.offset, penalty = options.penalty;
+    return penalty * penalty * ball_overlap_volume(a, b, d) -
+           penalty * (ball_overlap_volume(a + r0, b, d) + ball_overlap_volume(a, b + r0, d)) +
+           ball_overlap_volume(a + r0, b + r0, d);
+  };
   for (Knots* knots : {&channel.fixed, &channel.moving}) {
     if (!(knots->weights.imag().array() == 0.0).all())  // NaN fails too
       throw InputError("double skin: knot weights must be real; they become the affinity's i w");

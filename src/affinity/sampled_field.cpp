@@ -23,6 +23,11 @@ Channel sampled_channel(const std::string& name, double weight, const Knots& fix
     return volume * std::exp(-2.0 * u * u);
   };
   Channel channel{name, weight, fixed, moving, transform, transform, 6.0 * width};
+  // Two Gaussians of that width make one of twice the variance.
+  channel.pair = [volume, width](double d, double, double) {
+    return volume * volume * std::exp(-d * d / (4.0 * width * width)) /
+           std::pow(4.0 * std::numbers::pi * width * width, 1.5);
+  };
   channel.fixed.points.row(3).setConstant(0.5 * spacing);
   channel.moving.points.row(3).setConstant(0.5 * spacing);
   check_channel(channel, "sampled channel");

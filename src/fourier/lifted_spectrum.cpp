@@ -135,10 +135,11 @@ Eigen::MatrixXcd lifted_spectrum(const Knots& knots, const RadialKernel& kernel,
                         {.tolerance = tolerance, .offsets = options.offsets}),
         shells, modes, box, options);
   const auto [least, most] = std::minmax_element(options.offsets.begin(), options.offsets.end());
-  return by_fourth_axis(knots,
-                        fitted_cone(kernel, k_max, knots.points.row(3).minCoeff() + *least,
-                                    knots.points.row(3).maxCoeff() + *most, tolerance),
-                        shells, modes, box, options);
+  return by_fourth_axis(
+      knots,
+      fitted_cone(transform_of(kernel), k_max, knots.points.row(3).minCoeff() + *least,
+                  knots.points.row(3).maxCoeff() + *most, tolerance),
+      shells, modes, box, options);
 }
 
 }  // namespace mortise

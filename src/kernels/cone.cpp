@@ -50,7 +50,7 @@ double ConeSeries::trim(double r) const {
 
 Eigen::VectorXcd ConeSeries::coefficients(double k) const {
   Eigen::VectorXd samples(radii_.size());
-  for (Eigen::Index j = 0; j < samples.size(); ++j) samples[j] = kernel_.transform(k, radii_[j]);
+  for (Eigen::Index j = 0; j < samples.size(); ++j) samples[j] = transform_(k, radii_[j]);
   const Eigen::VectorXcd factors = from_samples_ * samples;
   return to_modes_ * factors;
 }
@@ -58,7 +58,7 @@ Eigen::VectorXcd ConeSeries::coefficients(double k) const {
 ConeSeries trimmed_cone(const RadialKernel& kernel, double height, double trim_alpha, int modes) {
   if (!(height > 0.0) || !(trim_alpha > 0.0) || std::isinf(trim_alpha) || modes < 1)
     throw InputError("trimmed_cone: height and trim_alpha must be > 0 and finite, modes >= 1");
-  ConeSeries series(kernel);
+  ConeSeries series(transform_of(kernel));
   series.period_ = height;
   series.trim_alpha_ = trim_alpha;
   const int points = 512 + 8 * modes;
@@ -75,7 +75,7 @@ ConeSeries trimmed_cone(const RadialKernel& kernel, double height, double trim_a
   return series;
 }
 
-ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, double r_max,
+ConeSeries fitted_cone(const RadialTransform& transform, double k_max, double r_min, double r_max,
                        double tolerance) {
   if (!(k_max > 0.0 && std::isfinite(k_max)) ||
       !(r_min > 0.0 && r_min <= r_max && std::isfinite(r_max)))
@@ -90,9 +90,12 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
   // with the smallest norm.
   const int kMostModes = 100 + static_cast<int>(20.0 * k_max * r_max);
   const double width = std::max(r_max - r_min, 1e-3 * r_max);
-  ConeSeries series(kernel);
+  ConeSeries series(transform);
   series.period_ = 2.5 * width;
-  const double volume = kernel.volume(r_max);
+  const int k_count = 9 + static_cast<int>(4.0 * k_max * r_max);
+  double largest = 0.0;
+  for (int i = 0; i < k_count; ++i)
+    largest = std::max(largest, std::abs(transform(k_max * i / (k_count - 1), r_max)));
   for (int modes = 4;; modes += 2) {
     if (modes > kMostModes)
       throw InputError("fitted_cone: the tolerance is out of reach of double precision");
@@ -114,7 +117,7 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
     series.from_samples_ = svd.matrixU().adjoint() * row_scale.asDiagonal();
     series.to_modes_ = svd.matrixV() * inverse.asDiagonal();
     double worst = 0.0;
-    const int k_count = 9 + static_cast<int>(4.0 * k_max * r_max), r_count = 4 * modes;
+    const int r_count = 4 * modes;
     for (int i = 0; i < k_count; ++i) {
       const double k = k_max * i / (k_count - 1);
       const Eigen::VectorXcd g = series.coefficients(k);
@@ -123,7 +126,7 @@ ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min, d
         std::complex<double> value = 0.0;
         for (int m = 0; m < modes; ++m)
           value += g[m] * std::polar(1.0, -2.0 * pi * (m - modes / 2) * r / series.period_);
-        worst = std::max(worst, std::abs(value - kernel.transform(k, r)) / volume);
+        worst = std::max(worst, std::abs(value - transform(k, r)) / largest);
       }
     }
     if (worst <= tolerance) return series;

@@ -293,14 +293,7 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
         "skeletal", weight * options.skeletal,
         skeletal_knots(parts.fixed, plan.fixed.knots, options),
         skeletal_knots(parts.moving, plan.moving.knots, options), plan.search.spacing));
-  // The search's frame depends on the knots alone: a search on a coarse grid tells it.
-  SearchOptions coarse = plan.search;
-  coarse.spacing = 4.0 * plan.search.spacing;
-  coarse.threads = options.threads;
-  const Eigen::Quaterniond search_from_fixed =
-      RotationSearch(plan.channels, Eigen::Vector4d(1.0, 0.0, 0.0, 0.0), coarse)
-          .search_from_fixed()
-          .rotation;
+  const Eigen::Quaterniond search_from_fixed = search_frame(plan.channels).rotation;
   plan.rotations = mate_rotations(parts, started, search_from_fixed);
   plan.search_column = "skin";
   plan.stages = mate_stages(parts, options);

@@ -3,8 +3,6 @@
 #include "search/components.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <map>
 
 #include "mortise/core/threads.hpp"
@@ -17,45 +15,23 @@ namespace {
 // Far below what single precision and the coarse grid leave.
 constexpr double kFixedTolerance = 1e-5;
 
-// |k| of every mode of a half spectrum. Modes that differ in the signs of kx and ky share an entry,
-// so that radial functions are evaluated once for them.
-struct Frequencies {
-  std::vector<double> lengths;
-  std::vector<std::uint32_t> of_mode;  // index into lengths
-
-  Frequencies(const std::array<int, 3>& size, double spacing) {
-    const auto [nx, ny, nz] = size;
-    for (int i = 0; i <= nx / 2; ++i)
-      for (int j = 0; j <= ny / 2; ++j)
-        for (int k = 0; k <= nz / 2; ++k) {
-          const double x = i / (nx * spacing), y = j / (ny * spacing), z = k / (nz * spacing);
-          lengths.push_back(std::sqrt(x * x + y * y + z * z));
-        }
-    of_mode.reserve(static_cast<std::size_t>(nx) * ny * (nz / 2 + 1));
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j)
-        for (int k = 0; k <= nz / 2; ++k)
-          of_mode.push_back(static_cast<std::uint32_t>(
-              (std::abs(i - nx / 2) * (ny / 2 + 1) + std::abs(j - ny / 2)) * (nz / 2 + 1) + k));
-  }
-
-  // a_q(k) of every length, terms x lengths; 0 where nothing passes.
-  [[nodiscard]] Eigen::MatrixXd factors(const CompressedRadius& compressed, std::size_t offset,
-                                        const ComponentOptions& options) const {
-    Eigen::MatrixXd result =
-        Eigen::MatrixXd::Zero(compressed.terms(), static_cast<Eigen::Index>(lengths.size()));
-    constexpr std::size_t kPiece = 1024;
-    parallel_for((lengths.size() + kPiece - 1) / kPiece, options.threads,
-                 [&](std::size_t piece, int) {
-                   const std::size_t end = std::min(lengths.size(), (piece + 1) * kPiece);
-                   for (std::size_t n = piece * kPiece; n < end; ++n)
-                     if (options.low_pass(lengths[n]) > 0.0)
-                       result.col(static_cast<Eigen::Index>(n)) =
-                           compressed.frequency_factors(lengths[n], offset);
-                 });
-    return result;
-  }
-};
+// a_q(k) of every length, terms x lengths; 0 where nothing passes.
+Eigen::MatrixXd factors_of(const CompressedRadius& compressed, std::size_t offset,
+                           const Frequencies& frequencies, const ComponentOptions& options) {
+  const std::vector<double>& lengths = frequencies.lengths;
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(compressed.terms(), static_cast<Eigen::Index>(lengths.size()));
+  constexpr std::size_t kPiece = 1024;
+  parallel_for((lengths.size() + kPiece - 1) / kPiece, options.threads,
+               [&](std::size_t piece, int) {
+                 const std::size_t end = std::min(lengths.size(), (piece + 1) * kPiece);
+                 for (std::size_t n = piece * kPiece; n < end; ++n)
+                   if (options.low_pass(lengths[n]) > 0.0)
+                     result.col(static_cast<Eigen::Index>(n)) =
+                         compressed.frequency_factors(lengths[n], offset);
+               });
+  return result;
+}
 
 CompressedRadius compress(const Knots& knots, const RadialTransform& transform, double k_max,
                           const std::vector<double>& offsets, const ComponentOptions& options) {
@@ -121,7 +97,7 @@ Components make_components(const std::vector<Channel>& channels,
       const Eigen::Matrix3Xd points =
           search_from_fixed * Eigen::Matrix3Xd(channel.fixed.points.topRows<3>());
       const Eigen::MatrixXd fixed_shares = shares_of(channel.fixed, fixed_weights, of_fixed);
-      const Eigen::MatrixXd fixed_factors = frequencies.factors(of_fixed, 0, options);
+      const Eigen::MatrixXd fixed_factors = factors_of(of_fixed, 0, frequencies, options);
       HalfSpectrum field(frequencies.of_mode.size());
       for (Eigen::Index q = 0; q < fixed_shares.cols(); ++q) {
         const auto modes = nfft.transform(points, Eigen::VectorXd(fixed_shares.col(q)));
@@ -136,7 +112,7 @@ Components make_components(const std::vector<Channel>& channels,
       const Eigen::MatrixXd shares = shares_of(channel.moving, moving_weights, of_moving);
       std::vector<Eigen::MatrixXd> factors;
       for (std::size_t o = 0; o < options.offsets.size(); ++o)
-        factors.push_back(frequencies.factors(of_moving, o, options));
+        factors.push_back(factors_of(of_moving, o, frequencies, options));
       for (Eigen::Index q = 0; q < shares.cols(); ++q) {
         Component component{Eigen::VectorXf::Zero(result.points.cols()), {}};
         for (Eigen::Index j = 0; j < channel.moving.size(); ++j)
@@ -147,6 +123,8 @@ Components make_components(const std::vector<Channel>& channels,
           HalfSpectrum& spectrum = component.spectra.emplace_back(field);
           for (std::size_t n = 0; n < spectrum.size(); ++n)
             spectrum[n] *= factor * of_offset(q, frequencies.of_mode[n]);
+          for (std::size_t n = 0; n < spectrum.size(); ++n)
+            spectrum[n] *= options.low_pass(frequencies.lengths[frequencies.of_mode[n]]);
         }
         result.parts.push_back(std::move(component));
       }

@@ -5,22 +5,20 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <complex>
 #include <vector>
 
 #include "mortise/affinity/channel.hpp"
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/kernels/low_pass.hpp"
+#include "search/frequencies.hpp"
 
 namespace mortise {
-
-/// Values at the modes of a grid: kx, ky from -floor(n/2), kz from 0 to n / 2; kz fastest.
-using HalfSpectrum = std::vector<std::complex<double>>;
 
 /// One real weight per moving point and, for each offset, the fixed spectrum it meets.
 struct Component {
   Eigen::VectorXf weights;            ///< of each point of Components::points
-  std::vector<HalfSpectrum> spectra;  ///< per offset: fixed body's field times both kernels
+  std::vector<HalfSpectrum> spectra;  ///< per offset: fixed body's field times both kernels, the
+                                      ///< low-pass and factors
 };
 
 struct Components {
@@ -30,8 +28,7 @@ struct Components {
 
 struct ComponentOptions {
   double radius_tolerance = 3e-3;  ///< of the compressed radius (kernels/compressed_radius.hpp)
-  LowPass low_pass =
-      {};  ///< what the search will multiply by; only weighs the compression's errors
+  LowPass low_pass = {};           ///< of the product; weighs the compression's errors, too
   std::vector<double> offsets = {0.0};  ///< added to the moving radii
   int threads = 0;
 };

@@ -2,19 +2,17 @@
 // The rotation loop.
 #include "mortise/search/rotation_search.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/core/threads.hpp"
+#include "mortise/core/principal_frame.hpp"
+#include "mortise/fourier/aligned.hpp"
 #include "mortise/fourier/fft_plan.hpp"
-#include "search/components.hpp"
-#include "search/correlator.hpp"
+#include "search/backend.hpp"
 
 namespace mortise {
 namespace {
@@ -30,6 +28,9 @@ void check_options(const SearchOptions& o) {
     refuse("per_rotation must be >= 1, got " + std::to_string(o.per_rotation));
   if (!(o.separation >= 0.0))
     refuse("separation must be >= 0, got " + std::to_string(o.separation));
+  if (o.offsets.empty()) refuse("expected at least one offset, got none");
+  for (const double offset : o.offsets)
+    if (!std::isfinite(offset)) refuse("offsets must be finite, got " + std::to_string(offset));
   if (!(o.radius_tolerance >= 1e-8 && o.radius_tolerance <= 0.1))
     refuse("radius_tolerance must be in [1e-8, 0.1], got " + std::to_string(o.radius_tolerance));
   if (o.spread_width < 2 || o.spread_width > 8)
@@ -48,30 +49,6 @@ Eigen::Matrix3Xd all_centres(const std::vector<Channel>& channels, Knots Channel
   return centres;
 }
 
-// Principal axes, longest first, right-handed, the first two turned towards the side on which the
-// points lie farther out (positive third moment): the frame then depends on the shape alone. Where
-// a body is too symmetric to tell, the largest component in the input frame is made positive.
-RigidMotion principal_frame(const Eigen::Matrix3Xd& points) {
-  const Eigen::Vector3d mean = points.rowwise().mean();
-  const Eigen::Matrix3Xd centred = points.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centred * centred.transpose());
-  Eigen::Matrix3d axes;
-  for (int d = 0; d < 2; ++d) {
-    Eigen::Vector3d axis = solver.eigenvectors().col(2 - d);
-    const Eigen::ArrayXd along = centred.transpose() * axis;
-    const double third = along.cube().sum();
-    Eigen::Index largest = 0;
-    axis.cwiseAbs().maxCoeff(&largest);
-    const double lead = std::abs(third) > 1e-9 * along.abs().cube().sum() ? third : axis[largest];
-    axes.row(d) = (lead < 0.0 ? -axis : axis).transpose();
-  }
-  axes.row(2) = axes.row(0).cross(axes.row(1));
-  RigidMotion frame{canonical(Eigen::Quaterniond(axes)), Eigen::Vector3d::Zero()};
-  const Eigen::Matrix3Xd turned = frame * points;
-  frame.translation = -0.5 * (turned.rowwise().minCoeff() + turned.rowwise().maxCoeff());
-  return frame;
-}
-
 // Centre of a ball that holds all points, within about 1% of the smallest: Badoiu and Clarkson's
 // iteration.
 Eigen::Vector3d ball_centre(const Eigen::Matrix3Xd& points) {
@@ -84,73 +61,51 @@ Eigen::Vector3d ball_centre(const Eigen::Matrix3Xd& points) {
   return centre;
 }
 
-double hann(double k, double cutoff) {
-  return k < cutoff ? 0.5 * (1.0 + std::cos(std::numbers::pi * k / cutoff)) : 0.0;
-}
-
 }  // namespace
 
 struct RotationSearch::Impl {
   SearchOptions options;
   Eigen::Matrix4Xd rotations;
   RigidMotion search_from_fixed, search_from_moving;
-  Components components;  // spectra are given to the correlator and dropped
-  std::vector<Eigen::VectorXf> weights;
-  std::unique_ptr<Correlator> correlator;
-  std::vector<std::unique_ptr<Correlator::Workspace>> workspaces;
+  std::array<int, 3> size;
+  std::unique_ptr<SearchBackend> backend;
   std::vector<std::uint8_t> done;
-  std::vector<Candidate> found;  // per_rotation entries for each rotation; rotation_index -1 = none
+  std::vector<Candidate> found;  // per_rotation entries for each offset of each rotation;
+                                 // rotation_index -1 = none
 
-  Correlator::Workspace& workspace(int worker) {
-    if (!workspaces[worker])
-      workspaces[worker] = std::make_unique<Correlator::Workspace>(*correlator);
-    return *workspaces[worker];
+  [[nodiscard]] std::size_t per_rotation() const {
+    return options.offsets.size() * static_cast<std::size_t>(options.per_rotation);
   }
 
-  Eigen::Matrix3d rotation(Eigen::Index i) const {
+  [[nodiscard]] Eigen::Matrix3d rotation(Eigen::Index i) const {
     return Eigen::Quaterniond(rotations(0, i), rotations(1, i), rotations(2, i), rotations(3, i))
         .toRotationMatrix();
   }
-
-  // The moving centre's place in the search frame for a score cell, the copy nearest to the fixed
-  // body.
-  Eigen::Vector3d translation(const std::array<double, 3>& cell) const {
-    Eigen::Vector3d t;
-    for (int d = 0; d < 3; ++d) {
-      const double n = correlator->size()[d];
-      // The fixed body is centred on the origin of the search frame, which is grid point 0.
-      const double at = cell[d] + correlator->origin_cell()[d];
-      t[d] = (at - n * std::round(at / n)) * correlator->spacing();
-    }
-    return t;
-  }
-
-  void search_one(Eigen::Index index, int worker) {
-    Correlator::Workspace& w = workspace(worker);
-    correlator->correlate(components.points, weights, rotation(index), w);
-    const std::vector<GridPeak> peaks = correlator->take_peaks(
-        w, options.per_rotation, options.separation / options.spacing, options.summits);
-    Candidate* out = found.data() + index * options.per_rotation;
-    for (const GridPeak& peak : peaks) {
-      std::array<double, 3> cell;
-      for (int d = 0; d < 3; ++d) cell[d] = peak.cell[d] + static_cast<double>(peak.offset[d]);
-      const Eigen::Vector3f t = translation(cell).cast<float>();
-      *out++ = {static_cast<std::int32_t>(index), peak.score, {t[0], t[1], t[2]}};
-    }
-    done[index] = 1;
-  }
 };
+
+RigidMotion search_frame(const std::vector<Channel>& channels) {
+  if (channels.empty()) throw InputError("search: expected at least one channel, got none");
+  return principal_frame(all_centres(channels, &Channel::fixed));
+}
 
 RotationSearch::RotationSearch(const std::vector<Channel>& channels,
                                const Eigen::Matrix4Xd& rotations, const SearchOptions& options)
     : impl_(std::make_unique<Impl>()) {
   check_options(options);
   if (channels.empty()) throw InputError("search: expected at least one channel, got none");
-  double range = 0.0;
+  double range = 0.0, least_radius = std::numeric_limits<double>::infinity();
   for (const Channel& channel : channels) {
     check_channel(channel, "search");
     range = std::max(range, channel.range);
+    least_radius = std::min(least_radius, channel.moving.points.row(3).minCoeff());
   }
+  const auto [least_offset, most_offset] =
+      std::minmax_element(options.offsets.begin(), options.offsets.end());
+  if (!(least_radius + *least_offset > 0.0))
+    throw InputError("search: offset " + std::to_string(*least_offset) +
+                     " leaves nothing of the smallest moving radius, " +
+                     std::to_string(least_radius));
+  range += std::max(0.0, *most_offset);
   if (rotations.cols() == 0) throw InputError("search: expected at least one rotation, got none");
   if (!rotations.allFinite() || (rotations.colwise().norm().array() - 1.0).abs().maxCoeff() > 1e-6)
     throw InputError("search: every rotation must be a unit quaternion");
@@ -158,7 +113,7 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
   impl_->rotations = rotations.colwise().normalized();  // the corner has no room for 1e-6 more
 
   const Eigen::Matrix3Xd fixed = all_centres(channels, &Channel::fixed);
-  impl_->search_from_fixed = principal_frame(fixed);
+  impl_->search_from_fixed = search_frame(channels);
   const Eigen::Matrix3Xd moving = all_centres(channels, &Channel::moving);
   impl_->search_from_moving.translation = -ball_centre(moving);
   const double reach =
@@ -177,34 +132,30 @@ RotationSearch::RotationSearch(const std::vector<Channel>& channels,
     size[d] = good_fft_size(
         std::max(2 * options.spread_width, static_cast<int>(std::ceil(side / options.spacing))));
   }
-  impl_->components = make_components(channels, impl_->search_from_fixed, size, options.spacing,
-                                      {.radius_tolerance = options.radius_tolerance,
-                                       .low_pass = {.cutoff = options.cutoff},
-                                       .threads = options.threads});
-  if (impl_->components.parts.empty())
-    throw InputError("search: all weights of every channel are zero");
-  impl_->components.points = impl_->search_from_moving * impl_->components.points;
-  impl_->correlator = std::make_unique<Correlator>(size, options.spacing, reach,
-                                                   static_cast<int>(impl_->components.parts.size()),
-                                                   options.spread_width);
-  for (std::size_t p = 0; p < impl_->components.parts.size(); ++p) {
-    Component& part = impl_->components.parts[p];
-    impl_->weights.push_back(part.weights);
-    const auto [nx, ny, nz] = size;
-    impl_->correlator->set_fixed(
-        static_cast<int>(p), [&, nx = nx, ny = ny, nz = nz](int kx, int ky, int kz) {
-          const double k = Eigen::Vector3d(kx / (nx * options.spacing), ky / (ny * options.spacing),
-                                           kz / (nz * options.spacing))
-                               .norm();
-          const std::size_t at =
-              (static_cast<std::size_t>(kx + nx / 2) * ny + (ky + ny / 2)) * (nz / 2 + 1) + kz;
-          return part.spectra[0][at] * hann(k, options.cutoff);
-        });
-    part = {};
+  impl_->size = size;
+  SearchSetup setup{size, reach, {}, {}, options};
+  const ComponentOptions component_options{.radius_tolerance = options.radius_tolerance,
+                                           .low_pass = {.cutoff = options.cutoff},
+                                           .offsets = options.offsets,
+                                           .threads = options.threads};
+  bool any = false;
+  if (options.lift == SearchLift::k4d) {
+    setup.lifted = make_lifted_parts(channels, impl_->search_from_fixed, size, options.spacing,
+                                     component_options);
+    for (LiftedPart& part : setup.lifted.parts)
+      part.points.bottomRows<3>() =
+          impl_->search_from_moving * Eigen::Matrix3Xd(part.points.bottomRows<3>());
+    any = !setup.lifted.parts.empty();
+  } else {
+    setup.components = make_components(channels, impl_->search_from_fixed, size, options.spacing,
+                                       component_options);
+    setup.components.points = impl_->search_from_moving * setup.components.points;
+    any = !setup.components.parts.empty();
   }
-  impl_->workspaces.resize(resolve_threads(options.threads));
+  if (!any) throw InputError("search: all weights of every channel are zero");
+  impl_->backend = make_cpu_backend(std::move(setup));
   impl_->done.assign(rotations.cols(), 0);
-  impl_->found.resize(static_cast<std::size_t>(rotations.cols()) * options.per_rotation);
+  impl_->found.resize(static_cast<std::size_t>(rotations.cols()) * impl_->per_rotation());
 }
 
 RotationSearch::~RotationSearch() = default;
@@ -216,19 +167,29 @@ bool RotationSearch::run(const ProgressCallback& progress) {
   for (Eigen::Index i = 0; i < impl_->rotations.cols(); ++i)
     if (impl_->done[i] == 0) todo.push_back(i);
   const std::size_t before = impl_->done.size() - todo.size();
-  std::size_t next = 0, block = 16 * impl_->workspaces.size();
+  std::size_t next = 0, block = 16 * impl_->backend->least_batch();
   while (next < todo.size()) {
     const auto start = Clock::now();
     const std::size_t count = std::min(block, todo.size() - next);
-    parallel_for(count, impl_->options.threads,
-                 [&](std::size_t i, int worker) { impl_->search_one(todo[next + i], worker); });
+    std::vector<Eigen::Matrix3d> batch;
+    for (std::size_t i = 0; i < count; ++i) batch.push_back(impl_->rotation(todo[next + i]));
+    const std::vector<Candidate> found = impl_->backend->search(batch);
+    const std::size_t per = impl_->per_rotation();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Index r = todo[next + i];
+      for (std::size_t n = 0; n < per; ++n) {
+        Candidate& c = impl_->found[static_cast<std::size_t>(r) * per + n] = found[i * per + n];
+        if (c.rotation_index >= 0) c.rotation_index = static_cast<std::int32_t>(r);
+      }
+      impl_->done[r] = 1;
+    }
     next += count;
     if (progress && !progress(before + next, impl_->done.size()) && next < todo.size())
       return false;
     // Blocks of about a tenth of a second: rare enough to cost nothing, often enough to stop soon.
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (seconds < 0.07) block *= 2;
-    if (seconds > 0.2) block = std::max(impl_->workspaces.size(), block / 2);
+    if (seconds > 0.2) block = std::max(impl_->backend->least_batch(), block / 2);
   }
   return true;
 }
@@ -254,19 +215,22 @@ void RotationSearch::resume(const std::vector<std::uint8_t>& done,
   std::transform(done.begin(), done.end(), now.begin(),
                  [](std::uint8_t d) { return static_cast<std::uint8_t>(d != 0); });
   std::vector<Candidate> found(impl_->found.size());
-  std::vector<int> filled(done.size(), 0);
+  const std::size_t offsets = impl_->options.offsets.size();
+  std::vector<int> filled(done.size() * offsets, 0);
   for (const Candidate& c : candidates) {
     if (c.rotation_index < 0 || static_cast<std::size_t>(c.rotation_index) >= done.size() ||
         now[c.rotation_index] == 0)
       refuse("candidates are of rotations that it has not searched");
-    if (filled[c.rotation_index] >= impl_->options.per_rotation)
+    if (c.offset_index < 0 || static_cast<std::size_t>(c.offset_index) >= offsets)
+      refuse("candidates are of offsets that this one has not");
+    const std::size_t at = static_cast<std::size_t>(c.rotation_index) * offsets + c.offset_index;
+    if (filled[at] >= impl_->options.per_rotation)
       refuse("candidates are more than " + std::to_string(impl_->options.per_rotation) +
              " at a rotation");
-    found[static_cast<std::size_t>(c.rotation_index) * impl_->options.per_rotation +
-          filled[c.rotation_index]++] = c;
+    found[at * impl_->options.per_rotation + filled[at]++] = c;
   }
-  for (std::size_t r = 0; r < done.size(); ++r)
-    if (now[r] != 0 && filled[r] == 0)
+  for (std::size_t at = 0; at < filled.size(); ++at)
+    if (now[at / offsets] != 0 && filled[at] == 0)
       refuse("candidates lack those of a rotation it has searched");
   impl_->done = std::move(now);
   impl_->found = std::move(found);
@@ -280,25 +244,19 @@ RigidMotion RotationSearch::moving_in_fixed(const Candidate& candidate) const {
                           {impl_->rotations, impl_->search_from_fixed, impl_->search_from_moving});
 }
 
-const std::array<int, 3>& RotationSearch::grid_size() const { return impl_->correlator->size(); }
-double RotationSearch::spacing() const { return impl_->correlator->spacing(); }
+const std::array<int, 3>& RotationSearch::grid_size() const { return impl_->size; }
+double RotationSearch::spacing() const { return impl_->options.spacing; }
 
-std::vector<float> RotationSearch::score_grid(Eigen::Index rotation) {
-  Correlator::Workspace& w = impl_->workspace(0);
-  impl_->correlator->correlate(impl_->components.points, impl_->weights, impl_->rotation(rotation),
-                               w);
-  const auto [nx, ny, nz] = impl_->correlator->size();
-  std::vector<float> grid;
-  grid.reserve(static_cast<std::size_t>(nx) * ny * nz);
-  for (int r = 0; r < nx * ny; ++r) {
-    const float* row = w.scores.data() + static_cast<std::ptrdiff_t>(r) * impl_->correlator->row();
-    grid.insert(grid.end(), row, row + nz);
-  }
-  return grid;
+std::vector<float> RotationSearch::score_grid(Eigen::Index rotation, int offset_index) {
+  if (rotation < 0 || rotation >= impl_->rotations.cols() || offset_index < 0 ||
+      static_cast<std::size_t>(offset_index) >= impl_->options.offsets.size())
+    throw InputError("search: no rotation " + std::to_string(rotation) + " or no offset " +
+                     std::to_string(offset_index));
+  return impl_->backend->score_grid(impl_->rotation(rotation), offset_index);
 }
 
 Eigen::Vector3d RotationSearch::translation_of(int i, int j, int k) const {
-  return impl_->translation(
+  return impl_->backend->translation(
       {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
 }
 

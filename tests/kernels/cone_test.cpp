@@ -79,7 +79,7 @@ TEST(ConeSeries, FittedConeGivesTheKernelOnItsRadii) {
     for (const auto& [r_min, r_max] :
          {std::pair{1.4, 4.8}, std::pair{1.8, 1.8}, std::pair{0.3, 12.0}})
       for (const double tolerance : {1e-2, 1e-6, 1e-10}) {
-        const ConeSeries cone = fitted_cone(kernel, 0.43, r_min, r_max, tolerance);
+        const ConeSeries cone = fitted_cone(transform_of(kernel), 0.43, r_min, r_max, tolerance);
         for (const double k : {0.0, 0.071, 0.21, 0.43})
           for (const double part : {0.0, 0.013, 0.37, 0.77, 1.0}) {
             const double r = r_min + part * (r_max - r_min);
@@ -88,8 +88,8 @@ TEST(ConeSeries, FittedConeGivesTheKernelOnItsRadii) {
                 << "k " << k << " r " << r << " modes " << cone.modes();
           }
       }
-  EXPECT_LE(fitted_cone(RadialKernel(), 0.43, 1.4, 4.8, 1e-6).modes(), 20);
-  EXPECT_THROW((void)fitted_cone(RadialKernel(), 0.43, 0.0, 4.8, 1e-6), InputError);
+  EXPECT_LE(fitted_cone(transform_of(RadialKernel()), 0.43, 1.4, 4.8, 1e-6).modes(), 20);
+  EXPECT_THROW((void)fitted_cone(transform_of(RadialKernel()), 0.43, 0.0, 4.8, 1e-6), InputError);
 }
 
 }  // namespace

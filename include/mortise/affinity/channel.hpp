@@ -3,6 +3,7 @@
 /// A score channel: one additive radial pair score between two sets of knots, as data.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "mortise/core/knots.hpp"
@@ -27,6 +28,9 @@ struct Channel {
   RadialTransform moving_transform;  ///< the moving body's
   double range =
       0.0;  ///< distance of two knots beyond which their score is nil; sizes the search's box
+  /// K(d; r_i, r_j) of two knots in closed form, if there is one; only exact_scores()
+  /// (scoring/shape_scores.hpp) asks it.
+  std::function<double(double d, double fixed_radius, double moving_radius)> pair = {};
 };
 
 /// Throws InputError naming `who` unless both knot sets are good, both transforms are set, weight

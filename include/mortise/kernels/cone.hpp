@@ -8,6 +8,7 @@
 #include <complex>
 
 #include "mortise/kernels/bump.hpp"
+#include "mortise/kernels/radial_transform.hpp"
 
 namespace mortise {
 
@@ -38,10 +39,10 @@ class ConeSeries {
 
  private:
   friend ConeSeries trimmed_cone(const RadialKernel&, double, double, int);
-  friend ConeSeries fitted_cone(const RadialKernel&, double, double, double, double);
-  explicit ConeSeries(const RadialKernel& kernel) : kernel_(kernel) {}
+  friend ConeSeries fitted_cone(const RadialTransform&, double, double, double, double);
+  explicit ConeSeries(const RadialTransform& transform) : transform_(transform) {}
 
-  RadialKernel kernel_;
+  RadialTransform transform_;
   double period_ = 0.0;
   double trim_alpha_ = 0.0;                   // 0: fitted
   Eigen::VectorXd radii_;                     // where phi^(k; .) is sampled
@@ -54,10 +55,10 @@ class ConeSeries {
                                       int modes);
 
 /// The cone as it may be altered where no slice looks: the shortest series of period 2.5 (r_max -
-/// r_min) that gives phi^(k; r) for k <= k_max and r_min <= r <= r_max with error <= tolerance of
-/// the volume; no weighting of balls.
+/// r_min) that gives any radial transform phi^(k; r) for k <= k_max and r_min <= r <= r_max, with
+/// error <= tolerance of the largest |phi^(k; r_max)|, a ball's volume; no weighting of balls.
 /// @throws InputError unless 0 < k_max, 0 < r_min <= r_max, 1e-10 <= tolerance <= 0.1
-[[nodiscard]] ConeSeries fitted_cone(const RadialKernel& kernel, double k_max, double r_min,
+[[nodiscard]] ConeSeries fitted_cone(const RadialTransform& transform, double k_max, double r_min,
                                      double r_max, double tolerance);
 
 }  // namespace mortise

@@ -17,6 +17,7 @@ struct Candidate {
   std::int32_t rotation_index = -1;
   float score = 0.0F;                     ///< sum of all channels; at the sub-grid maximum
   std::array<float, 3> translation = {};  ///< of the moving body's centre
+  std::int32_t offset_index = 0;          ///< of SearchOptions::offsets
 };
 
 /// Where candidates lie, for whoever has the run but not the search.

@@ -17,6 +17,13 @@
 
 namespace mortise {
 
+/// How the moving body's fields are summed, knots of unequal radii included.
+enum class SearchLift {
+  kCompressed,  ///< a few 3D sums, the radii compressed (kernels/compressed_radius.hpp)
+  k4d,  ///< one 4D sum with the cone's series [SD, Sec. 2.2, 2.5]: nothing compressed, spreading
+        ///< within the tolerance, at some hundred times the time and tens of times the memory
+};
+
 struct SearchOptions {
   double spacing = 3.0;  ///< grid step, length unit of the bodies; > 0
   double cutoff =
@@ -30,8 +37,17 @@ struct SearchOptions {
   double radius_tolerance =
       3e-3;  ///< error allowed of a knot's transform where radii are many, relative to its largest
              ///< value (kernels/compressed_radius.hpp); 1e-8 to 0.1. One radius has none
+  SearchLift lift = SearchLift::kCompressed;
+  std::vector<double> offsets = {
+      0.0};         ///< added to the moving body's radii, length unit; each gives scores and
+                    ///< candidates of its own at little cost; all radii must stay > 0
   int threads = 0;  ///< 0 = all cores; never changes the result
 };
+
+/// Carries the fixed body's input coordinates to the frame in which RotationSearch places and turns
+/// the moving body: the principal frame of the fixed knots of all channels.
+/// @throws InputError if there is no channel
+[[nodiscard]] RigidMotion search_frame(const std::vector<Channel>& channels);
 
 /// The rotation loop of docs/math.md: rotate the moving knots, spread them, transform, multiply
 /// with the fixed body's spectrum, transform back, keep the best translations.
@@ -56,13 +72,13 @@ class RotationSearch {
 
   /// Per rotation: 1 if searched.
   [[nodiscard]] const std::vector<std::uint8_t>& done() const;
-  /// Candidates of the rotations done, by rotation, best first within one.
+  /// Candidates of the rotations done, by rotation and offset, best first within these.
   [[nodiscard]] std::vector<Candidate> candidates() const;
   /// Takes up where another search of the same inputs and options stopped. @throws InputError if
   /// they do not fit
   void resume(const std::vector<std::uint8_t>& done, const std::vector<Candidate>& candidates);
 
-  /// Carries the fixed body's input coordinates to the search frame (principal axes, centred).
+  /// search_frame() of the channels.
   [[nodiscard]] const RigidMotion& search_from_fixed() const;
   /// Moves the moving body's centre to the origin; no rotation.
   [[nodiscard]] const RigidMotion& search_from_moving() const;
@@ -71,10 +87,10 @@ class RotationSearch {
 
   [[nodiscard]] const std::array<int, 3>& grid_size() const;
   [[nodiscard]] double spacing() const;
-  /// Scores of all translations at one rotation (row of the set), x slowest: what the loop sees,
-  /// for tests and pictures. Entry (i, j, k) is the score with the moving body's centre at
-  /// translation_of(i, j, k).
-  [[nodiscard]] std::vector<float> score_grid(Eigen::Index rotation);
+  /// Scores of all translations at one rotation (row of the set) and offset, x slowest: what the
+  /// loop sees, for tests and pictures. Entry (i, j, k) is the score with the moving body's centre
+  /// at translation_of(i, j, k).
+  [[nodiscard]] std::vector<float> score_grid(Eigen::Index rotation, int offset_index = 0);
   [[nodiscard]] Eigen::Vector3d translation_of(int i, int j, int k) const;
 
  private:
