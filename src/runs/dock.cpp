@@ -15,6 +15,7 @@
 #include "mortise/scoring/shape_kernel.hpp"
 #include "runs/option_table.hpp"
 #include "runs/random_start.hpp"
+#include "runs/shape_columns.hpp"
 #include "scoring/molecule_scorers.hpp"
 
 namespace mortise {
@@ -113,9 +114,21 @@ SearchPlan plan_dock(const Body& receptor, const Body& ligand, const DockOptions
   plan.points = plan.moving.knots.points.topRows<3>();
   plan.rotations = rotation_set(options.rotations, RotationMethod::kAuto, options.threads);
   plan.search = options.search;
-  plan.channels = {double_skin_channel(plan.fixed.knots, plan.moving.knots, options.double_skin)};
   const ContactPotential potential = potential_of(options);
   plan.search_weight = potential.shape;
+  plan.channels = {double_skin_channel(plan.fixed.knots, plan.moving.knots, options.double_skin)};
+  const ShapeColumnsOptions columns{.count = static_cast<std::size_t>(options.described),
+                                    .weight = potential.shape,
+                                    .cutoff = options.search.cutoff,
+                                    .radius_tolerance = options.search.radius_tolerance,
+                                    .threads = options.threads};
+  // Poses of the plan are of the started body, those described of the body as its file has it.
+  const Channel input_channel = double_skin_channel(
+      plan.fixed.knots, input_knots(plan.moving.knots, plan.start), options.double_skin);
+  plan.describe = [input_channel, columns](const PoseList& list,
+                                           const std::vector<FoundPose>& found) {
+    return shape_columns(input_channel, list, found, columns);
+  };
   if (!options.rescore && !options.polish) {
     plan.stages = stages_of(nullptr, {}, options);
     return plan;

@@ -14,6 +14,16 @@ constexpr auto kReading = OptionScope::kReading;
 constexpr auto kSearch = OptionScope::kSearch;
 constexpr auto kRanking = OptionScope::kRanking;
 
+std::string print_lift(const O& o) {
+  return o.search.lift == SearchLift::k4d ? "4d" : "compressed";
+}
+
+void parse_lift(O& o, const std::string& text) {
+  if (text != "compressed" && text != "4d")
+    throw InputError("lift: expected compressed or 4d, got \"" + text + '"');
+  o.search.lift = text == "4d" ? SearchLift::k4d : SearchLift::kCompressed;
+}
+
 constexpr Row kRows[] = {
     {"rotations", kSearch, "Rotations searched",
      Row::Integer([](O& o) -> int& { return o.rotations; }), 1.0},
@@ -47,6 +57,16 @@ constexpr Row kRows[] = {
     {"cluster_radius", kRanking,
      "Drop poses whose ligand RMSD to a better one is below this, angstrom; 0 = keep all",
      Row::Real([](O& o) -> double& { return o.cluster_radius; }), 0.0, 1e4},
+    {"described", kRanking,
+     "Best poses whose shape score's truncation error and sensitivity to the radii are given",
+     Row::Integer([](O& o) -> int& { return o.described; }), 0.0},
+    {"radius_tolerance", kSearch,
+     "Error allowed of a ball's transform where radii differ, relative to its largest value",
+     Row::Real([](O& o) -> double& { return o.search.radius_tolerance; }), 1e-8, 0.1},
+    {"lift", kSearch,
+     "How fields of unequal radii are summed: compressed, or 4d for the exact four-dimensional "
+     "sum, some hundred times slower",
+     TextForm<O>{print_lift, parse_lift}},
     {"ligands", kReading, "Keep cofactors and other hetero groups",
      Row::Switch([](O& o) -> bool& { return o.read.keep_ligands; })},
     {"ions", kReading, "Keep ions", Row::Switch([](O& o) -> bool& { return o.read.keep_ions; })},

@@ -300,7 +300,8 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
   plan.points = pair.moving_frame.to_input(pair.pair.moving().points.cast<double>());
   for (std::string& decision : step_decisions(parts.coarser, options))
     plan.decisions.push_back(std::move(decision));
-  plan.describe = [fixed_part = parts.fixed, moving_part, options](const PoseList& list) {
+  plan.describe = [fixed_part = parts.fixed, moving_part, options](const PoseList& list,
+                                                                   const std::vector<FoundPose>&) {
     return contact_columns(fixed_part, moving_part, options, list);
   };
   return plan;

@@ -143,7 +143,7 @@ Run rescore(const Run& run, const SearchPlan& plan) {
   result.poses = std::move(staged.list);
   for (Pose& pose : result.poses.poses)
     pose.moving_in_fixed = compose(pose.moving_in_fixed, plan.start);
-  result.metrics = plan.describe ? plan.describe(result.poses) : std::vector<MetricColumn>();
+  result.metrics = plan_columns(plan, result);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   std::erase_if(result.figures, [](const Figure& figure) {
     return figure.name.starts_with("seconds_rank") || figure.name == "seconds_describe";

@@ -13,14 +13,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Knots of the frame of the start, in the input frame.
+}  // namespace
+
 Knots input_knots(const Knots& knots, const RigidMotion& start) {
   Knots result = knots;
   result.points.topRows<3>() = inverse(start) * Eigen::Matrix3Xd(knots.points.topRows<3>());
   return result;
 }
-
-}  // namespace
 
 RotationSearch make_search(const SearchPlan& plan) {
   SearchOptions options = plan.search;
@@ -32,8 +31,10 @@ StagedPoses rank_candidates(const SearchPlan& plan, const std::vector<Candidate>
                             const CandidateFrames& frames) {
   PoseList list{{plan.search_column}, {}};
   list.poses.reserve(candidates.size());
-  for (const Candidate& c : candidates) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
     Pose pose;
+    pose.candidate = static_cast<std::int32_t>(i);
     pose.moving_in_fixed = candidate_motion(c, frames);
     pose.score = plan.search_weight * c.score;
     pose.channels = {pose.score};
@@ -48,6 +49,18 @@ PoseList rank_search(const SearchPlan& plan, const RotationSearch& search) {
              plan, search.candidates(),
              {plan.rotations.quaternions, search.search_from_fixed(), search.search_from_moving()})
       .list;
+}
+
+std::vector<MetricColumn> plan_columns(const SearchPlan& plan, const Run& run) {
+  if (!plan.describe) return {};
+  const CandidateFrames frames{run.rotations.quaternions, run.fixed.search_from_input,
+                               run.moving.search_from_input};
+  std::vector<FoundPose> found;
+  for (const Pose& pose : run.poses.poses) {
+    const Candidate& c = run.candidates.at(static_cast<std::size_t>(pose.candidate));
+    found.push_back({candidate_motion(c, frames), c.score, c.offset_index});
+  }
+  return plan.describe(run.poses, found);
 }
 
 Run run_plan(const SearchPlan& plan, const Provenance& provenance, const RunWatch& watch,
@@ -115,7 +128,7 @@ Run run_plan(const SearchPlan& plan, const Provenance& provenance, const RunWatc
   }
   if (searched && plan.describe) {
     const Clock::time_point describing = Clock::now();
-    run.metrics = plan.describe(run.poses);
+    run.metrics = plan_columns(plan, run);
     if (earlier == nullptr) figure("seconds_describe", seconds_since(describing));
   }
   run.seconds = seconds_before + seconds_since(begin);

@@ -60,12 +60,13 @@ BodyRecord read_body(const Reader& file, const std::string& group) {
 void write_poses(Writer& file, const Run& run) {
   const std::vector<Pose>& poses = run.poses.poses;
   const hsize_t n = poses.size();
-  std::vector<std::int32_t> rank, rotation_index, cluster;
+  std::vector<std::int32_t> rank, rotation_index, cluster, candidate;
   std::vector<double> score, quaternion, translation;
   for (const Pose& pose : poses) {
     rank.push_back(static_cast<std::int32_t>(rank.size()) + 1);
     rotation_index.push_back(pose.rotation_index);
     cluster.push_back(pose.cluster);
+    candidate.push_back(pose.candidate);
     score.push_back(pose.score);
     const Eigen::Quaterniond& q = pose.moving_in_fixed.rotation;
     quaternion.insert(quaternion.end(), {q.w(), q.x(), q.y(), q.z()});
@@ -86,6 +87,7 @@ void write_poses(Writer& file, const Run& run) {
   file.array("/poses/translation", {n, 3}, translation.data());
   file.array("/poses/rotation_index", {n}, rotation_index.data());
   file.array("/poses/cluster", {n}, cluster.data());
+  file.array("/poses/candidate", {n}, candidate.data());
   file.group("/poses/metrics");
   for (const MetricColumn& metric : run.metrics)
     file.array("/poses/metrics/" + metric.name, {n}, metric.values.data());
@@ -99,6 +101,7 @@ void read_poses(const Reader& file, Run& run) {
   const std::vector<double> t = file.reals("/poses/translation", {n, 3});
   const std::vector<std::int32_t> rotation_index = file.integers("/poses/rotation_index", {n});
   const std::vector<std::int32_t> cluster = file.integers("/poses/cluster", {n});
+  const std::vector<std::int32_t> candidate = file.integers("/poses/candidate", {n});
   std::vector<Pose>& poses = run.poses.poses;
   poses.resize(n);
   for (hsize_t i = 0; i < n; ++i) {
@@ -108,6 +111,7 @@ void read_poses(const Reader& file, Run& run) {
     poses[i].score = score[i];
     poses[i].rotation_index = rotation_index[i];
     poses[i].cluster = cluster[i];
+    poses[i].candidate = candidate[i];
   }
   run.poses.channel_names = file.children("/poses/channels");
   for (const std::string& name : run.poses.channel_names) {
@@ -121,15 +125,17 @@ void read_poses(const Reader& file, Run& run) {
 // Single precision, as the search has them: 16 bytes a candidate before compression.
 void write_candidates(Writer& file, const std::vector<Candidate>& candidates) {
   const hsize_t n = candidates.size();
-  std::vector<std::int32_t> rotation_index;
+  std::vector<std::int32_t> rotation_index, offset_index;
   std::vector<float> score, translation;
   for (const Candidate& c : candidates) {
     rotation_index.push_back(c.rotation_index);
+    offset_index.push_back(c.offset_index);
     score.push_back(c.score);
     translation.insert(translation.end(), c.translation.begin(), c.translation.end());
   }
   file.group("/candidates");
   file.array("/candidates/rotation_index", {n}, rotation_index.data());
+  file.array("/candidates/offset_index", {n}, offset_index.data());
   file.array("/candidates/score", {n}, score.data());
   file.array("/candidates/translation", {n, 3}, translation.data());
 }
@@ -139,10 +145,12 @@ std::vector<Candidate> read_candidates(const Reader& file) {
   const hsize_t n = shape.empty() ? 0 : shape[0];
   const std::vector<float> score = file.floats("/candidates/score", {n});
   const std::vector<std::int32_t> rotation_index = file.integers("/candidates/rotation_index", {n});
+  const std::vector<std::int32_t> offset_index = file.integers("/candidates/offset_index", {n});
   const std::vector<float> t = file.floats("/candidates/translation", {n, 3});
   std::vector<Candidate> result(n);
   for (hsize_t i = 0; i < n; ++i)
-    result[i] = {rotation_index[i], score[i], {t[3 * i], t[3 * i + 1], t[3 * i + 2]}};
+    result[i] = {
+        rotation_index[i], score[i], {t[3 * i], t[3 * i + 1], t[3 * i + 2]}, offset_index[i]};
   return result;
 }
 
@@ -190,6 +198,9 @@ void check_run(const Run& run, const char* who) {
     const std::string what = where + "pose " + std::to_string(i + 1);
     expect_size(pose.channels.size(), run.poses.channel_names.size(), what + " channels");
     if (pose.rotation_index != -1) expect_rotation(pose.rotation_index, rotations, what);
+    if (pose.candidate < -1 || pose.candidate >= static_cast<std::int64_t>(run.candidates.size()))
+      throw InputError(what + ": candidate " + std::to_string(pose.candidate) + " is not one of " +
+                       std::to_string(run.candidates.size()));
     if (!std::isfinite(pose.score)) throw InputError(what + ": the score is not finite");
     if (!pose.moving_in_fixed.translation.allFinite() ||
         !(std::abs(pose.moving_in_fixed.rotation.norm() - 1.0) < 1e-6))
@@ -207,6 +218,8 @@ void check_run(const Run& run, const char* who) {
     expect_rotation(c.rotation_index, rotations, what);
     if (run.rotations.done[static_cast<std::size_t>(c.rotation_index)] == 0)
       throw InputError(what + ": its rotation is not among those done");
+    if (c.offset_index < 0)
+      throw InputError(what + ": offset index " + std::to_string(c.offset_index) + " is below 0");
     if (!std::isfinite(c.score) || !std::all_of(c.translation.begin(), c.translation.end(),
                                                 [](float x) { return std::isfinite(x); }))
       throw InputError(what + ": expected a finite score and translation");

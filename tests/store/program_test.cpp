@@ -144,7 +144,7 @@ TEST_F(Program, ExportRefusesWhatMakesNoSense) {
   run_.kind = "mate";
   run_.moving.kind = "part";
   write_run(scratch_ / "mate.h5", run_);
-  expect_user_error("export mate.h5 --format pdb", "this is a mate run");
+  expect_user_error("export mate.h5 --format pdb", "of this mate run is a part");
 }
 
 TEST_F(Program, InfoShowsRunsKnotsAndStructures) {

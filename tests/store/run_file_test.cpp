@@ -57,6 +57,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   run.moving.unit = "mm";
   run.complete = false;
   run.candidates = sample_candidates(17);
+  run.poses.poses[1].candidate = 16;
   write_run(scratch / "run.h5", run);
   const mortise::Run back = read_run(scratch / "run.h5");
   EXPECT_EQ(back.kind, "mate");
@@ -97,6 +98,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
     EXPECT_EQ(a.channels, b.channels);
     EXPECT_EQ(a.rotation_index, b.rotation_index);
     EXPECT_EQ(a.cluster, b.cluster);
+    EXPECT_EQ(a.candidate, b.candidate);
   }
   ASSERT_EQ(back.metrics.size(), 2U);
   EXPECT_EQ(back.metrics[0].name, "interface_rmsd");
@@ -106,6 +108,7 @@ TEST(RunFile, KeepsEveryFieldBitForBit) {
   for (std::size_t i = 0; i < 17; ++i) {
     EXPECT_EQ(back.candidates[i].rotation_index, run.candidates[i].rotation_index);
     EXPECT_EQ(back.candidates[i].score, run.candidates[i].score);
+    EXPECT_EQ(back.candidates[i].offset_index, run.candidates[i].offset_index);
     EXPECT_EQ(back.candidates[i].translation, run.candidates[i].translation);
   }
 }
@@ -159,6 +162,8 @@ TEST(RunFile, RefusesRunsThatDoNotAgreeWithThemselves) {
               HasSubstr("pose 3 channels"));
   EXPECT_THAT(error_of([](mortise::Run& r) { r.poses.poses[1].rotation_index = 50; }),
               HasSubstr("rotation index 50"));
+  EXPECT_THAT(error_of([](mortise::Run& r) { r.poses.poses[1].candidate = 4; }),
+              HasSubstr("candidate 4 is not one of 4"));
   EXPECT_THAT(error_of([](mortise::Run& r) { r.poses.poses[1].score = NAN; }),
               HasSubstr("pose 2: the score"));
   EXPECT_THAT(

@@ -113,7 +113,8 @@ inline std::vector<Candidate> sample_candidates(int count) {
   for (int i = 0; i < count; ++i)
     candidates.push_back({i % 46 + 4,
                           100.0F / static_cast<float>(i + 3),
-                          {uniform(random), uniform(random), uniform(random)}});
+                          {uniform(random), uniform(random), uniform(random)},
+                          i % 3});
   return candidates;
 }
 

@@ -19,6 +19,7 @@ struct Pose {
   std::vector<double> channels;      ///< one value per entry of PoseList::channel_names
   std::int32_t rotation_index = -1;  ///< row of the run's rotation set; -1 = not from a set
   std::int32_t cluster = -1;         ///< 0-based, by rank of its best pose; -1 = not clustered
+  std::int32_t candidate = -1;       ///< which of the run's candidates it was; -1 = none of them
 };
 
 /// Poses in rank order (best first) and the names of their score channels.

@@ -35,6 +35,8 @@ struct DockOptions {
   int poses = 2000;    ///< poses reported, at most; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none
+  int described = 100;  ///< best poses whose shape score's truncation error and sensitivity to an
+                        ///< offset are worked out, as columns of the run; >= 0
   ReadMoleculeOptions read = {};  ///< what is taken from structure files
   std::optional<std::uint64_t> random_start =
       {};           ///< seed of a random motion that the moving body is given first: up to 50

@@ -21,6 +21,13 @@
 
 namespace mortise {
 
+/// Where the search found a pose, before any stage moved it.
+struct FoundPose {
+  RigidMotion moving_in_fixed;
+  double score = 0.0;    ///< of the search there, all channels
+  int offset_index = 0;  ///< of SearchOptions::offsets
+};
+
 /// All that a run does between its two bodies and its poses. Frames: the moving body is taken in
 /// the frame of the start, `start` applied to its input coordinates.
 struct SearchPlan {
@@ -36,11 +43,17 @@ struct SearchPlan {
   std::string search_column = "shape";  ///< its name among the poses' columns
   std::vector<Stage> stages;
   Eigen::Matrix3Xd points;  ///< 3 x N, of the moving body, frame of the start: RMSDs are over them
-  /// Further columns of the final poses, in input frames; may be empty.
-  std::function<std::vector<MetricColumn>(const PoseList& poses)> describe = {};
+  /// Further columns of the final poses; may be empty. Motions are in input frames; `found` has one
+  /// entry per pose.
+  std::function<std::vector<MetricColumn>(const PoseList& poses,
+                                          const std::vector<FoundPose>& found)>
+      describe = {};
   std::vector<std::string> decisions = {};  ///< what was chosen otherwise than asked, for people
   int threads = 0;                          ///< 0 = all cores; never changes the result
 };
+
+/// Knots in the frame of a start, as the input frame has them.
+[[nodiscard]] Knots input_knots(const Knots& knots, const RigidMotion& start);
 
 /// The search that a plan asks for, ready to run.
 [[nodiscard]] RotationSearch make_search(const SearchPlan& plan);
@@ -51,6 +64,9 @@ struct SearchPlan {
                                           const CandidateFrames& frames);
 /// The same of a search's candidates so far.
 [[nodiscard]] PoseList rank_search(const SearchPlan& plan, const RotationSearch& search);
+
+/// The plan's further columns of a run's poses.
+[[nodiscard]] std::vector<MetricColumn> plan_columns(const SearchPlan& plan, const Run& run);
 
 /// What a run tells while it goes on; every member may be empty.
 struct RunWatch {
