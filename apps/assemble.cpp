@@ -220,18 +220,18 @@ void add_assemble(CLI::App& program) {
                       "CSV with columns qw, qx, qy, qz, tx, ty, tz: one pose per step");
   command->add_option(
       "--goal", options->goal,
-      "CSV whose first pose is the mate: a hand that explores and ends there is made up");
+      "CSV whose first pose is the mate: Mortise makes up a hand's path that ends there");
   command->add_option("--mates", options->mates,
                       "File of true placements, as parts/mates.json, in place of --goal; --free "
-                      "then counts rest at the mate's symmetries too");
+                      "then counts the mate's symmetries too");
   command->add_option("--pair", options->pair,
                       "Name of the pair in that file; default: by the parts' file names");
   command->add_option("--seconds", options->hand.seconds, "Length of the made-up path")
       ->capture_default_str();
-  command->add_option("--seed", options->hand.seed, "Of the made-up path or of the starts")
+  command->add_option("--seed", options->hand.seed, "Seed of the made-up path or of the starts")
       ->capture_default_str();
   CLI::Option* write_path =
-      command->add_option("--write-path", options->write_path, "CSV to keep the path in");
+      command->add_option("--write-path", options->write_path, "CSV file to write the path to");
   command->add_option("--rate", options->rate, "Steps per second")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -239,9 +239,9 @@ void add_assemble(CLI::App& program) {
       "-o,--output", options->output,
       "CSV: time, energy, force, torque (about the moving part's origin), time spent; "
       "with --free: the poses of rest");
-  CLI::Option* plot = command->add_option("--plot", options->plot, "SVG of the same");
+  CLI::Option* plot = command->add_option("--plot", options->plot, "SVG plot of the same");
   command
-      ->add_option("--modes", options->assembly.modes, "Fourier modes m': more make contact harder")
+      ->add_option("--modes", options->assembly.modes, "Fourier modes m'; more make contact harder")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000000));
   command->add_option("--grid", options->field.grid, "Nodes along a part's longest side")
@@ -255,27 +255,26 @@ void add_assemble(CLI::App& program) {
       ->check(CLI::IsMember({"double-skin", "skeletal"}));
   command
       ->add_option("--sigma", options->sigma,
-                   "Thickness factor of the skeletons: smaller is sharper")
+                   "Thickness factor of the skeletons; smaller is sharper")
       ->capture_default_str();
   command
       ->add_option(
           "--thickness", options->field.thickness,
-          "Skin in which parts attract each other, unit of the files; 0 = 0.15 of the smaller part")
+          "Skin in which parts attract, length unit of the files; 0 = 0.15 of the smaller part")
       ->capture_default_str();
-  command
-      ->add_option("--penalty", options->field.penalty, "What overlap costs against what fit gains")
+  command->add_option("--penalty", options->field.penalty, "Weight of overlap against fit")
       ->capture_default_str();
   command
       ->add_option(
           "--free", options->free_starts,
-          "Let the part go from so many random starts near the goal and count those that snap in")
+          "Let the part go from this many random starts near the goal; count those that snap in")
       ->excludes(plot)
       ->excludes(write_path)
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--start-shift", options->start_shift,
-                   "Of those starts, part of the moving part's radius")
+                   "Largest shift of those starts, in radii of the moving part")
       ->capture_default_str();
   command
       ->add_option("--start-angle", options->start_angle, "Largest turn of those starts, degrees")

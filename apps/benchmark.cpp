@@ -259,11 +259,12 @@ void add_benchmark(CLI::App& program) {
       .add_option("-o,--output", options->output,
                   "CSV of results, a row per pair as it is done; NAME_summary.csv beside it")
       ->required();
-  command.add_option("--fold", options->fold, "i/k: only every k-th pair, from the i-th on")
+  command.add_option("--fold", options->fold, "Only every K-th pair, from the I-th on (I from 1)")
       ->type_name("I/K");
-  command.add_option("--subset", options->subset, "Only the pairs of these names")->delimiter(',');
+  command.add_option("--subset", options->subset, "Only the pairs of these names, by commas")
+      ->delimiter(',');
   command.add_option("--seed", options->seed, "Seed of the random starts")->capture_default_str();
-  command.add_option("--runs", options->runs, "Keep each pair's run file in this folder");
+  command.add_option("--runs", options->runs, "Folder to keep each pair's run file in");
   command
       .add_option("--jobs", options->jobs,
                   "Pairs docked at a time; --threads is for each of them, 0 = its share of the "

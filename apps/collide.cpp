@@ -163,14 +163,13 @@ void add_collide(CLI::App& program) {
       ->required();
   command
       ->add_option("--poses", options->poses,
-                   "CSV with columns qw, qx, qy, qz, tx, ty, tz; others are skipped")
+                   "CSV with columns qw, qx, qy, qz, tx, ty, tz; other columns are skipped")
       ->required();
   command->add_option(
       "-o,--output", options->output,
-      "CSV: pose, answer (yes, no or band), what decided, gap value (the common volume by the "
-      "modes "
-      "kept; where atoms overlap they count each), its gradient by translation and by rotation "
-      "about the moving body's origin");
+      "CSV: pose, answer (yes, no or band), what decided, gap value (common volume by the modes "
+      "kept; overlapping atoms count each), its gradient by translation and by rotation about "
+      "the moving body's origin");
   command->add_option("--modes", options->collider.modes, "Fourier modes of the gap function")
       ->capture_default_str()
       ->check(CLI::Range(200, 10000000));
@@ -181,7 +180,7 @@ void add_collide(CLI::App& program) {
       ->check(CLI::Range(2, 1024));
   command
       ->add_option("--tree-steps", options->collider.tree_steps,
-                   "Parts: pairs of balls looked at per pose before only the sum of modes is left")
+                   "Parts: pairs of balls examined per pose before the sum of modes decides")
       ->capture_default_str()
       ->check(CLI::Range(1, 2000000000));
   add_common_options(*command, options->common,

@@ -214,9 +214,10 @@ void add_decompose(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(2, 1024));
   command
-      .add_option("--mu", decompose.protrusion,
-                  "How far a ball may stick out of a chosen one, in its radii, and be passed over; "
-                  "less makes more inner balls and in the end fewer")
+      .add_option(
+          "--mu", decompose.protrusion,
+          "A ball is passed over that sticks out of a chosen one by at most this part of its "
+          "radius; less makes more inner balls and fewer in the end")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   command.add_option("--method", options->method, "Order of the inner balls")
@@ -228,7 +229,9 @@ void add_decompose(CLI::App& program) {
                   "those in no other, none = all")
       ->capture_default_str()
       ->check(CLI::IsMember(names(kReductions)));
-  command.add_option("--expansion", decompose.expansion, "Radii grow by this part of epsilon")
+  command
+      .add_option("--expansion", decompose.expansion,
+                  "Part of epsilon by which radii grow; epsilon is half a cell's diagonal")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   command
@@ -242,7 +245,7 @@ void add_decompose(CLI::App& program) {
   command.add_option("--ply", options->ply, "PLY file of the balls, to look at");
   command.add_flag("--force", options->force, "Replace the output files if they are there");
   command.add_flag("--allow-open", options->allow_open,
-                   "Take a surface with holes; inside is where it winds around a point");
+                   "Accept a surface with holes; inside is where it winds around a point");
   command.add_flag("!--no-hausdorff", options->measure,
                    "Do not measure the distance between balls and part");
   add_common_options(command, options->common,

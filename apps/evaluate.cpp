@@ -181,9 +181,10 @@ void add_evaluate(CLI::App& program) {
       "  mortise evaluate run.h5 --reference-fixed complex.pdb:A --reference-moving complex.pdb:B\n"
       "  mortise evaluate run.h5 --reference-fixed rec_b.pdb --reference-moving lig_b.pdb --json\n"
       "  mortise evaluate mate.h5 --reference-pose parts/mates.json\n"
-      "Classes are CAPRI's, from i-RMSD, L-RMSD and fnat. The superposed pose, each unbound body\n"
-      "laid on its own reference, shows what a rigid docking can reach. Of parts the largest\n"
-      "and rms distance of the surface from its true place are given, over the diameter.");
+      "Classes are CAPRI's, from i-RMSD, L-RMSD and fnat. In the superposed pose each unbound\n"
+      "body is laid on its own reference: the best that a rigid docking can reach. For parts\n"
+      "the error is the surface's distance from its true place, largest and rms, over the\n"
+      "part's diameter.");
   command.callback([options] { execute(*options); });
 }
 

@@ -165,11 +165,12 @@ void add_export(CLI::App& program) {
   command.add_option("run", options->run, "Run file")->required();
   command
       .add_option("--format", options->format,
-                  "pdb, cif, csv, json, zdock; of parts stl, ply, step")
+                  "pdb, cif, csv, json or zdock; for parts stl, ply, step, csv or json")
       ->required();
   command
-      .add_option("--top", options->choice.top,
-                  "Best poses to write; 0 = 10 for pdb and cif, 1 of parts, all otherwise")
+      .add_option(
+          "--top", options->choice.top,
+          "Poses to write, from the best; 0 = 10 for pdb and cif, 1 for parts, all otherwise")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--pose", options->choice.pose, "Only the pose of this rank, from 1")

@@ -16,10 +16,9 @@ void add_mate(CLI::App& program) {
        "  mortise mate seat.obj leg.obj -o run.h5 --preset thorough\n"
        "  mortise mate block.stl pin.stl -o run.h5 --axis 0,0,1:0,0,1 --rotations 360\n"
        "  mortise mate -o run.h5 --resume\n"
-       "Score: facing surfaces in contact less what penetrates, relative to the smaller surface.\n"
-       "Ctrl-C saves the run so far, with the best placements of it (without, at a second "
-       "Ctrl-C),\n"
-       "and exits with 130."});
+       "Score: contact area that holds, less what penetrates, over the smaller part's area.\n"
+       "Ctrl-C saves the run with its best placements so far and exits with 130; a second\n"
+       "Ctrl-C saves it without placements."});
 }
 
 }  // namespace mortise::app

@@ -88,10 +88,11 @@ template <class Options>
 void add_option_flags(CLI::App& command, const RunKind<Options>& kind, OptionFlags<Options>& flags,
                       const std::string& preset_help = {}) {
   command
-      .add_option("--preset", flags.preset,
-                  "fast, default or thorough; the options below go over it and show the values of "
-                  "default" +
-                      preset_help)
+      .add_option(
+          "--preset", flags.preset,
+          "fast, default or thorough; the options below override it, and the values shown are "
+          "those of default" +
+              preset_help)
       ->default_str("default");
   for (const OptionRow<Options>& row : kind.rows())
     add_row(command, flags, kind.preset("default"), row);

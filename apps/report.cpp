@@ -74,8 +74,8 @@ void add_report(CLI::App& program) {
           [options](const std::string& name) {
             options->report.clusters.measure = parse_cluster_measure(name);
           },
-          "What poses of one cluster share: ligand, the RMSD of the moving body where the fixed\n"
-          "one stays; interface, the RMSD of both bodies' interface, superposed  [ligand]")
+          "RMSD by which poses are one cluster: ligand, of the moving body with the fixed one in\n"
+          "place; interface, of both bodies' interface, superposed  [ligand]")
       ->check(CLI::IsMember({"ligand", "interface"}))
       ->type_name("NAME");
   command
@@ -99,11 +99,12 @@ void add_report(CLI::App& program) {
   command
       .add_option(
           "--page-triangles", options->report.part_triangles,
-          "A larger part is simplified to about so many on the page, which says by how much")
+          "Triangles a part has at most on the page, about; larger ones are simplified, and the\n"
+          "page says by how much")
       ->capture_default_str();
   command
       .add_option("--png", options->report.pictures,
-                  "So many best poses as PNG, ray traced, and the plots: for papers")
+                  "Best poses drawn as ray-traced PNG, with the plots: for papers")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--fixed", options->places.fixed.path, "Where the fixed body's file is now");
@@ -111,7 +112,7 @@ void add_report(CLI::App& program) {
                      "Where the moving body's file is now");
   command
       .add_option("--search", options->places.trees,
-                  "Directories, with all below them, to look through for inputs that moved")
+                  "Directories in which to look for inputs that moved, with all below them")
       ->type_name("DIR")
       ->expected(1)
       ->take_all();

@@ -106,8 +106,8 @@ void add_rescore(CLI::App& program) {
                      "  mortise rescore run.h5 -o shape.h5 --no-rescore\n"
                      "  mortise rescore run.h5 -o other.h5 --potential contacts.txt --poses 500\n"
                      "  mortise rescore mate.h5 -o strict.h5 --penetration-weight 6\n"
-                     "Options that the search depends on cannot change; metrics of evaluate are "
-                     "left out.");
+                     "Options of the search cannot change. Metrics that evaluate added are left "
+                     "out.");
   command.callback([flags] { execute(*flags); });
 }
 

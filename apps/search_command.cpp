@@ -266,14 +266,14 @@ void add_command(CLI::App& program, const RunKind<Options>& kind, const SearchWo
   command.add_option("MOVING", flags->moving, words.moving);
   command.add_option("-o,--output", flags->output, "Run file to write (HDF5)")->required();
   add_option_flags(command, kind, flags->options, words.preset_help);
-  CLI::Option* resume = command.add_flag(
-      "--resume", flags->resume,
-      "Go on with the run file, if it is there; inputs and options are those of the file");
+  CLI::Option* resume =
+      command.add_flag("--resume", flags->resume,
+                       "Go on with the run file if it is there, with its inputs and options");
   command.add_flag("--force", flags->force, "Replace the run file if it is there")
       ->excludes(resume);
   command
       .add_option("--checkpoint", flags->checkpoint_seconds,
-                  "Save the unfinished run every so many seconds")
+                  "Seconds between two saves of the unfinished run")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   add_common_options(command, flags->common, words.examples);

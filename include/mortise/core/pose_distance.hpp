@@ -17,9 +17,9 @@ namespace mortise {
 ///
 ///   mean_k |a p_k - b p_k|^2 = |a c - b c|^2 + 4 v^T J v.
 ///
-/// For p~ = p - c sums to zero, so centroid and rotation separate; |Ra p~ - Rb p~|^2 = 2 p~^T (I -
-/// Ra^T Rb) p~, of which only the symmetric part 2 (|v|^2 I - v v^T) of I - Ra^T Rb counts. No
-/// difference of large numbers: exact for close poses too.
+/// p~ = p - c sums to zero, so centroid and rotation separate. |Ra p~ - Rb p~|^2 is 2 p~^T (I -
+/// Ra^T Rb) p~, in which only the symmetric part 2 (|v|^2 I - v v^T) of I - Ra^T Rb counts. No
+/// large numbers are subtracted, so close poses are exact too.
 class PoseDistance {
  public:
   /// @param points  3 x N, N >= 1: the moving body in its input frame

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// How long computations tell their caller how far they are, and are told to stop.
+/// How long computations report progress to their caller, and how the caller stops them.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace mortise {
 
-/// Called now and then from the calling thread's computation with work done so far; returns false
-/// to stop early.
+/// A long computation calls this now and then with the work done so far. Returning false stops the
+/// computation early.
 using ProgressCallback = std::function<bool(std::size_t done, std::size_t total)>;
 
 }  // namespace mortise

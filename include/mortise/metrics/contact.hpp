@@ -33,10 +33,10 @@ struct ContactReport {
 
 /// Measures one placement.
 ///
-/// The depth is exact but for what lies between samples. The volume is summed over the leaves of an
-/// octree whose cells are dropped or taken whole where a distance says so; within a leaf both
-/// boundaries are taken as flat, which errs by the leaf's volume times the share of leaves that an
-/// edge crosses. The way out is the direction u that minimises the sum over the contact of
+/// The depth is exact at the samples. The volume is summed over an octree: cells are dropped or
+/// taken whole where a distance says so, and in the smallest cells both boundaries are taken as
+/// flat. That errs by a cell's volume times the share of these cells that an edge crosses. The way
+/// out is the direction u that minimises the sum over the contact of
 /// max(0, -u.m)^2, m the fixed surface's outward normal.
 /// @throws InputError if a mesh has no surface or an option is out of range
 /// Time: some 10^5 distance queries.

@@ -18,9 +18,9 @@ namespace mortise {
 /// element_radius().
 [[nodiscard]] double atom_radius(const Atom& atom);
 
-/// Radius by element symbol ("C", "Zn"), angstrom: Bondi, J. Phys. Chem. 68 (1964) 441-451;
-/// elements of the main groups he lacks from Mantina et al., J. Phys. Chem. A 113 (2009)
-/// 5806-5812; 2.0 for any other.
+/// Radius by element symbol ("C", "Zn"), angstrom: Bondi, J. Phys. Chem. 68 (1964) 441-451; main
+/// group elements that are not there: Mantina et al., J. Phys. Chem. A 113 (2009) 5806-5812; any
+/// other: 2.0.
 [[nodiscard]] double element_radius(const std::string& element);
 
 /// N radii, one per atom, angstrom.

@@ -25,7 +25,7 @@ struct SurfaceOptions {
 /// @param centres  3 x N
 /// @param radii    N radii >= 0, without the probe
 /// @throws InputError if the counts differ, a value is not finite, a radius is negative or an
-/// option out of range Time O(N points neighbours), memory O(N).
+/// option out of range. Time O(N points neighbours), memory O(N).
 [[nodiscard]] Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres,
                                                const Eigen::VectorXd& radii,
                                                const SurfaceOptions& options = {});
@@ -43,7 +43,7 @@ struct AccessiblePoints {
 };
 
 /// The same points one by one, so that areas can be counted again when another body covers some.
-/// @throws as accessible_areas() Time and memory likewise, and 24 bytes a point.
+/// @throws as accessible_areas(). Time and memory likewise, and 24 bytes a point.
 [[nodiscard]] AccessiblePoints accessible_points(const Eigen::Matrix3Xd& centres,
                                                  const Eigen::VectorXd& radii,
                                                  const SurfaceOptions& options = {});

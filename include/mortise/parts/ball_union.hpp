@@ -13,9 +13,9 @@ namespace mortise {
 /// The union of balls. With atoms and their radii the van der Waals surface of a molecule bounds
 /// it, with radii grown by a probe's the solvent-accessible one.
 ///
-/// Distances are exact on both sides. The boundary is made of patches of spheres, arcs of the
-/// circles in which two spheres meet and the ends of these; inside, the nearest of all is looked
-/// for in a tree. Copies share it. Safe to call from several threads at once.
+/// Distances are exact on both sides. The boundary is made of patches of spheres, of arcs in which
+/// two spheres meet, and of the arcs' ends. From inside, a tree finds the nearest of these. Copies
+/// share the tree. Safe to call from several threads at once.
 class BallUnion : public Solid {
  public:
   /// @param balls  4 x N, N >= 1: centre and radius > 0

@@ -18,9 +18,9 @@ enum class DecomposeMethod {
   kOctree,        ///< the balls about the cells of an octree
 };
 
-/// Which of the expanded balls A2 are kept as A3. Balls that the rest of the boundary needs to be
-/// within epsilon are added to any of them (Decomposition::added), small ones about nodes too where
-/// no ball of A2 reaches: kContainment is [SD, Alg. 1] where that is none.
+/// Which of the expanded balls A2 are kept as A3. To any choice balls are added until all of the
+/// boundary is within epsilon (Decomposition::added), among them small ones about nodes that no
+/// ball of A2 reaches. Where none is added, kContainment is [SD, Alg. 1].
 enum class Reduction {
   kCover,        ///< few of them that hold every node inside the solid
   kContainment,  ///< those whose inner ball is in no other kept ball [SD, Alg. 1, step 3]
@@ -30,8 +30,8 @@ enum class Reduction {
 /// What the knots weigh.
 enum class KnotWeights {
   kUnit,   ///< 1 each
-  kShare,  ///< what a ball has of its nodes, each node shared equally by the balls that hold it:
-           ///< the weighted volumes add up to about that of the union
+  kShare,  ///< part of a ball's nodes that is its own; a node is shared equally by the balls that
+           ///< hold it, so that weighted volumes add up to about that of the union
 };
 
 struct DecomposeOptions {
@@ -59,8 +59,8 @@ struct Decomposition {
 /// Decomposes a solid: inner balls by `method`, radii expanded, redundant balls dropped.
 ///
 /// The union U of the knots and the solid S satisfy U in S + B(epsilon) and S in U + B(epsilon)
-/// [SD, Prop. 3]: the sets are no further apart than half the diagonal of a grid cell. Derivation
-/// and what is changed against the paper in docs/math.md.
+/// [SD, Prop. 3]: the sets are at most half the diagonal of a grid cell apart. docs/math.md has the
+/// derivation and what differs from the paper.
 /// @throws InputError if an option is out of range, no node lies inside the solid or the grid has
 /// more than 2^28 nodes
 /// Time m distances and O(sum of the inner balls' volumes / spacing^3), memory about 16 bytes a

@@ -13,8 +13,8 @@ namespace mortise {
 [[nodiscard]] std::vector<Eigen::Index> outermost_vertices(const Eigen::Matrix3Xd& vertices,
                                                            int directions = 600);
 
-/// Largest distance between two vertices, length unit; short of it by less than 0.5%, as only the
-/// outermost vertices are compared. @throws InputError if there is no vertex
+/// Largest distance between two vertices, length unit. Only the outermost vertices are compared, so
+/// it is up to 0.5% too small. @throws InputError if there is no vertex
 [[nodiscard]] double diameter_of(const Eigen::Matrix3Xd& vertices);
 
 }  // namespace mortise

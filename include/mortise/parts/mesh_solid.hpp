@@ -15,8 +15,8 @@ namespace mortise {
 struct TriangleTree;
 
 struct MeshSolidOptions {
-  /// A cluster of triangles counts by its moments beyond this many times its radius, one by one
-  /// within; >= 1, infinity = the exact sum. At 2, errors are below 0.01.
+  /// Farther than this many times its radius a cluster of triangles counts by its moments, nearer
+  /// its triangles count singly; >= 1, infinity = the exact sum. At 2, errors are below 0.01.
   double winding_reach = 2.0;
   int threads = 0;  ///< for calls with many points; 0 = all cores; never changes the result
 };
@@ -28,10 +28,10 @@ struct NearestPoints {
   Eigen::VectorXd distances;  ///< N, >= 0
 };
 
-/// A triangle mesh as a solid. Inside is where the winding number is above 1/2: for a closed mesh
-/// whose triangles face outward the usual inside; overlapping shells unite (but
-/// distances are to the mesh, buried parts of it included); the holes of an open
-/// mesh are closed by a surface without creases.
+/// A triangle mesh as a solid. Inside is where the winding number is above 1/2. For a closed mesh
+/// whose triangles face outward that is the usual inside. Overlapping shells unite, but distances
+/// are to the whole mesh, buried parts of it included. The holes of an open mesh are closed by a
+/// surface without creases.
 ///
 /// Holds the mesh and a search tree, together about 250 bytes per triangle; copies share both. Safe
 /// to call from several threads at once.
@@ -57,8 +57,8 @@ class MeshSolid : public Solid {
   /// @param points  3 x N @throws InputError if a point is not finite
   [[nodiscard]] NearestPoints nearest(const Eigen::Matrix3Xd& points) const;
 
-  /// No edge is open: each is used as often one way as the other, vertices at the same place being
-  /// one. Then the winding number is a whole number everywhere off the surface.
+  /// Whether no edge is open: each is walked as often one way as the other, equal vertices counting
+  /// as one. Then the winding number is a whole number everywhere off the surface.
   [[nodiscard]] bool closed() const noexcept;
 
   [[nodiscard]] const TriangleMesh& mesh() const noexcept;

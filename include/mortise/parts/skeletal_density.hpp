@@ -18,9 +18,9 @@ struct SkeletalDensityOptions {
   double thickness = 0.5;
   double exterior = 1.0;  ///< lambda_1, the weight outside; finite
   double penalty = 3.0;   ///< p = lambda_2 / lambda_1, the weight inside over that outside; finite
-  /// Error aimed at, relative to the value or, where that is smaller, to a tenth of a flat wall's
-  /// (pi / 2 lambda); 0.005 to 0.1. The largest seen over many shapes and thicknesses is 0.73 of
-  /// it.
+  /// Error aimed at, 0.005 to 0.1: relative to the value, or where that is smaller to a tenth of a
+  /// flat wall's (pi / 2 lambda).
+  /// The largest error seen over many shapes and thicknesses is 0.73 of the aim.
   double tolerance = 0.01;
   int threads = 0;  ///< 0 = all cores; never changes the result
 };
@@ -37,10 +37,10 @@ struct SkeletalDensity : GridNodes {
 ///
 /// over the surface, xi the signed distance (negative inside), g_sigma the normalised Gaussian,
 /// dA_perp = (x - p).n / |x - p| dA; lambda = +lambda_1 outside, -lambda_2 = -p lambda_1 inside.
-/// The imaginary part is then positive outside and negative inside along the skeleton, so that in
-/// the real part of a product of two densities one's inside on the other's outside counts in
-/// favour, inside on inside and outside on outside against. 0 on the surface itself. Derivation in
-/// docs/math.md.
+/// Along the skeleton the imaginary part is positive outside and negative inside. In the real part
+/// of a product of two densities, the inside of one on the outside of the other therefore counts in
+/// favour; inside on inside and outside on outside count against. 0 on the surface itself.
+/// Derivation in docs/math.md.
 ///
 /// @param distances  of the same solid, exact everywhere (no band)
 /// @throws InputError if an option is out of range or the grid is empty

@@ -14,9 +14,9 @@
 
 namespace mortise {
 
-/// One body: a molecule in a run of two molecules, else a mesh, of balls where it is no part; the
-/// other is empty. Both are where its file was not found and SearchPlaces::allow_missing let it
-/// pass.
+/// One body: a molecule in a run of two molecules, else a mesh (of balls, if it is no part). The
+/// other is empty. Both are empty if the file was not found and SearchPlaces::allow_missing allows
+/// that.
 struct ReportBody {
   std::string found;  ///< path of the file as it was found now
   Molecule molecule;  ///< input frame; waters left out

@@ -18,7 +18,7 @@ namespace mortise {
 ///
 /// A residue is touched in a pose that brings a heavy atom of the moving body within `cutoff` of
 /// one of its atoms; a vertex likewise with the moving mesh's vertices and triangle centres.
-/// @param poses  the best so many poses of the run count; >= 1
+/// @param poses  so many poses count, from the best; >= 1
 /// @return shares in [0, 1], one per residue or vertex; all 0 without poses
 [[nodiscard]] Eigen::VectorXd touch_frequency(const Run& run, const ReportBodies& bodies,
                                               double cutoff, int poses, int threads = 0);
@@ -32,8 +32,8 @@ struct PageOptions {
 
 /// The page as HTML text, about 0.6 MB and 30 bytes per number of the run.
 ///
-/// A part is in it with about PageOptions::part_triangles at most, and what that changed, measured,
-/// is written beside it; the fixed part's large triangles are cut up, for its colours.
+/// A part has about PageOptions::part_triangles in it at most; the page says how far that moved the
+/// surface, as measured. The fixed part's large triangles are cut up, for its colours.
 /// All names and paths from files are data inside it, never markup; it loads nothing from outside
 /// and its content security policy says so.
 /// @throws InputError without report_page_available(), or as check_run

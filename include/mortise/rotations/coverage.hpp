@@ -22,14 +22,14 @@ struct Coverage {
 
 /// The covering radius alone, radians.
 ///
-/// The Voronoi cell of each member is clipped out exactly: seen from the member through the
-/// gnomonic projection, q -> y with x = (q + F y) / |q + F y|, a cell is a convex polyhedron, and
-/// its farthest points are vertices.
+/// Each member's Voronoi cell is clipped exactly. Under the gnomonic projection about the member,
+/// x = (q + F y) / |q + F y| with y in R^3, a cell is a convex polyhedron, and its farthest points
+/// are vertices.
 ///
 /// @param quaternions  4 x N: rows w, x, y, z, unit length; no two the same rotation
 /// @param threads      0 = all cores; never changes the result
 /// @throws InputError if there is no column or one is not of unit length
-/// Accurate to about 1e-9 rad; exactly pi when a cell reaches rotations by pi. Time O(N log N).
+/// Accurate to about 1e-9 rad. Exactly pi if a cell reaches rotations by pi. Time O(N log N).
 [[nodiscard]] double covering_radius(const Eigen::Matrix4Xd& quaternions, int threads = 0);
 
 /// All figures; the means are integrals over the same cells, by quadrature (see volume_error), not

@@ -59,8 +59,8 @@ enum class BodyKind { kMolecule, kPart, kBalls };
 /// Reads a body.
 /// @param spec  a mesh or STEP file, a file of `mortise decompose`, an .xyzr file, or a molecule:
 /// path[#model][:chain,chain]
-/// @throws as read_part(), read_balls() and read_molecule(); InputError for model or chains of what
-/// is no molecule
+/// @throws as read_part(), read_balls() and read_molecule(); InputError if model or chains are
+/// given for what is no molecule
 [[nodiscard]] Body read_body(const std::string& spec, const ReadBodyOptions& options = {});
 
 /// Reads a body of an earlier run again, its checksum verified.
@@ -71,7 +71,7 @@ enum class BodyKind { kMolecule, kPart, kBalls };
                                       const std::string& name, const LocateOptions& where = {},
                                       const ReadBodyOptions& options = {});
 
-/// The same to look at or to measure, whatever a later program knows of the run's options:
+/// The same to look at or to measure, even where this program does not know the run's options:
 /// hydrogens included, waters not; parts tessellated as the run's were, open surfaces accepted.
 [[nodiscard]] Body read_input_body(const BodyRecord& record, const Provenance& provenance,
                                    const std::string& name, const LocateOptions& where = {});

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// A measured number under its name, such as fft_ratio.
+/// A measured number under its name, such as seconds_search.
 struct Figure {
   std::string name;
   double value = 0.0;

@@ -50,7 +50,7 @@ struct Run {
   Provenance provenance;
   bool complete = false;        ///< false while the search is unfinished
   double seconds = 0.0;         ///< wall time spent, resumed parts included
-  std::vector<Figure> figures;  ///< timing and quality figures, such as fft_ratio
+  std::vector<Figure> figures;  ///< timing and quality figures, such as seconds_search
   BodyRecord fixed;
   BodyRecord moving;
   RotationRecord rotations;
