@@ -66,7 +66,7 @@ constexpr Row kRows[] = {
      Row::Real([](O& o) -> double& { return o.search.radius_tolerance; }), 1e-8, 0.1},
     {"lift", kSearch,
      "How fields of unequal radii are summed: compressed, or 4d for the exact four-dimensional "
-     "sum, some hundred times slower",
+     "sum, some twenty times slower",
      TextForm<O>{print_lift, parse_lift}},
     {"ligands", kReading, "Keep cofactors and other hetero groups",
      Row::Switch([](O& o) -> bool& { return o.read.keep_ligands; })},

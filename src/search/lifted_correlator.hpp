@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// All translations at one rotation by 4D sums: the exact form, some hundred times the cost of the
+/// All translations at one rotation by 4D sums: the exact form, some twenty times the cost of the
 /// compressed one.
 #pragma once
 

@@ -21,7 +21,7 @@ namespace mortise {
 enum class SearchLift {
   kCompressed,  ///< a few 3D sums, the radii compressed (kernels/compressed_radius.hpp)
   k4d,  ///< one 4D sum with the cone's series [SD, Sec. 2.2, 2.5]: nothing compressed, spreading
-        ///< within the tolerance, at some hundred times the time and tens of times the memory
+        ///< within the tolerance, at some twenty times the time
 };
 
 struct SearchOptions {
