@@ -4,6 +4,7 @@
 #include "mortise/fourier/spread_kernel.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -18,6 +19,8 @@ namespace mortise {
 namespace {
 
 using std::numbers::pi;
+
+constexpr int kBetaBits = 12;  // the error is flat about its minimum
 
 // The transform but for the factor width / I0(beta).
 double transform_shape(int width, double beta, double nu) {
@@ -102,27 +105,15 @@ SpreadKernel design_spread_kernel(double tolerance, std::span<const int> modes,
   }
   SpreadKernel kernel;
   for (kernel.width = kMinSpreadWidth; kernel.width <= kMaxSpreadWidth; ++kernel.width) {
-    // Golden section for the best beta; near the upper end the first image starts inside the
-    // kernel's main lobe.
+    // The best beta; near the upper end the first image starts inside the kernel's main lobe.
     const double most = pi * kernel.width * (1.0 - std::min(0.45, last));
-    double low = 0.3 * most, high = 1.05 * most;
-    const auto error_at = [&](double beta) {
-      kernel.beta = beta;
-      return total_error(kernel, modes, size, epsilon).aliasing;
-    };
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    double a = high - golden * (high - low), b = low + golden * (high - low);
-    double error_a = error_at(a), error_b = error_at(b);
-    for (int step = 0; step < 16; ++step) {
-      if (error_a < error_b) {
-        high = b, b = a, error_b = error_a;
-        error_a = error_at(a = high - golden * (high - low));
-      } else {
-        low = a, a = b, error_a = error_b;
-        error_b = error_at(b = low + golden * (high - low));
-      }
-    }
-    kernel.beta = 0.5 * (low + high);
+    kernel.beta = boost::math::tools::brent_find_minima(
+                      [&](double beta) {
+                        kernel.beta = beta;
+                        return total_error(kernel, modes, size, epsilon).aliasing;
+                      },
+                      0.3 * most, 1.05 * most, kBetaBits)
+                      .first;
     const TotalError error = total_error(kernel, modes, size, epsilon);
     // A single point can be placed so that its two nearest images add up: sqrt(2) times the mean
     // over places.
