@@ -37,14 +37,14 @@ struct MolecularSurfaceOptions {
 /// toroidal and concave patches (M. L. Connolly, J. Appl. Cryst. 16 (1983) 548-558). Derivation in
 /// docs/math.md.
 ///
-/// Areas of toroidal and concave patches are exact but where the latter run into each other, those
-/// of contact patches are counted; all are spread over the patch's dots, of which there is at least
-/// one. Cavities have a surface too, if a probe fits in.
+/// Areas of toroidal patches are exact, and of concave ones unless they run into each other; those
+/// of contact patches are counted. A patch's area is spread over its dots, at least one. Cavities
+/// have a surface too, if a probe fits in.
 ///
 /// @param centres  3 x N
 /// @param radii    N radii >= 0
 /// @throws InputError if the counts differ, a value is not finite, a radius is negative or an
-/// option out of range Time O(N neighbours^2), memory O(dots).
+/// option out of range. Time O(N neighbours^2), memory O(dots).
 [[nodiscard]] SurfaceDots molecular_surface(const Eigen::Matrix3Xd& centres,
                                             const Eigen::VectorXd& radii,
                                             const MolecularSurfaceOptions& options = {});

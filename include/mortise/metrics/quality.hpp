@@ -21,7 +21,7 @@ enum class CapriClass { kIncorrect, kAcceptable, kMedium, kHigh };
 ///
 /// tried from the top; incorrect otherwise. Mendez, Leplae, De Maria, Wodak, Proteins 52 (2003)
 /// 51-67, and Lensink, Wodak, Proteins 78 (2010) 3073-3084, Table I. Their rows name both bounds;
-/// tried from the top the lower ones suffice.
+/// from the top down, the lower ones suffice.
 /// @param ligand_rmsd, interface_rmsd  angstrom
 [[nodiscard]] CapriClass capri_class(double fnat, double ligand_rmsd, double interface_rmsd);
 

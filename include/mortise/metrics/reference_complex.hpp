@@ -49,15 +49,16 @@ struct ReferenceSummary {
 /// Definitions: Mendez, Leplae, De Maria, Wodak, Proteins 52 (2003) 51-67, with DockQ's details
 /// (see quality.hpp). Only heavy atoms of amino acids and nucleotides count. Atoms pair by
 /// match_residues and by name.
-///  - i-RMSD: backbone of the reference's interface residues, those with an atom within
-///  interface_cutoff of the partner,
-///    after superposing just these atoms. Backbone is N, CA, C, O; for nucleotides the sugar and
-///    phosphate atoms, as in DockQ 2.
+///  - i-RMSD: backbone of the reference's interface residues, after superposing just these atoms.
+///    Interface residues have an atom within interface_cutoff of the partner. Backbone is N, CA, C,
+///    O; for nucleotides the sugar and phosphate atoms, as in
+///    DockQ 2.
 ///  - L-RMSD: backbone of the whole ligand after superposing the backbone of the whole receptor.
-///  - fnat: pairs of residues with atoms closer than contact_cutoff in the reference that are so in
-///  the pose; the
-///    denominator counts contacts of residues that the model lacks, too. fnonnat: share of the
-///    pose's contacts, among residues known to both, not in the reference.
+///  - fnat: share of the reference's contacts that the pose has. A contact is a pair of residues
+///    with atoms closer than contact_cutoff; those of residues that the model lacks count as
+///    missed.
+///  - fnonnat: share of the pose's contacts, among residues known to both, that the reference does
+///    not have.
 ///
 /// Immutable and cheap to copy; evaluate() may run in many threads at once.
 class ReferenceComplex {

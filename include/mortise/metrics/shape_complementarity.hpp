@@ -41,8 +41,8 @@ struct Complementarity {
 ///   S(A -> B)(x) = -(n(x) . n(x')) exp(-weight |x - x'|^2),
 ///
 /// x' the nearest dot of B's trimmed interface and n outward normals. A dot is buried if the probe
-/// that touches it runs into the other body; of the buried dots those within `trim` of one of the
-/// same body that is not are left out. Dots count by the area they stand for.
+/// that touches it runs into the other body. Buried dots within `trim` of an exposed dot of the
+/// same body are left out. Dots count by the area they stand for.
 ///
 /// @param fixed, moving  3 x N centres, both in one frame
 /// @param fixed_radii, moving_radii  their radii, >= 0

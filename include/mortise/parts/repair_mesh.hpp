@@ -11,8 +11,8 @@
 namespace mortise {
 
 struct RepairOptions {
-  bool allow_open = false;  ///< accept a surface that cannot be closed; its inside is then a matter
-                            ///< of the winding number
+  bool allow_open = false;  ///< accept a surface that cannot be closed; its inside is then where
+                            ///< the winding number is above 1/2
   double merge_tolerance = 1e-6;  ///< points of open edges nearer than this are one; part of the
                                   ///< bounding box's diagonal, [0, 0.01]
   double largest_hole = 0.25;     ///< longest extent of a hole that is filled; part of the diagonal
