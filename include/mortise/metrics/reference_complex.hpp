@@ -51,8 +51,7 @@ struct ReferenceSummary {
 /// match_residues and by name.
 ///  - i-RMSD: backbone of the reference's interface residues, after superposing just these atoms.
 ///    Interface residues have an atom within interface_cutoff of the partner. Backbone is N, CA, C,
-///    O; for nucleotides the sugar and phosphate atoms, as in
-///    DockQ 2.
+///    O; for nucleotides the sugar and phosphate atoms, as in DockQ 2.
 ///  - L-RMSD: backbone of the whole ligand after superposing the backbone of the whole receptor.
 ///  - fnat: share of the reference's contacts that the pose has. A contact is a pair of residues
 ///    with atoms closer than contact_cutoff; those of residues that the model lacks count as
