@@ -26,7 +26,8 @@ BENCHMARK_PAIRS = ("1JTG", "1A2K", "1ML0", "2G77", "4G6M")
 # Column and the figures of the run file that it sums up.
 STAGES = (("read", ("seconds_read",)), ("set up", ("seconds_plan", "seconds_prepare")), ("search", ("seconds_search",)),
           ("contacts", ("seconds_rank_contact",)), ("polish", ("seconds_rank_polish",)))
-COLUMNS = ("pair", "atoms", "grid", "CPU, s", *(name for name, _ in STAGES), f"wall on {os.cpu_count()} cores, s", "peak MB")
+COLUMNS = ("pair", "atoms", "grid", "CPU, s", *(name for name, _ in STAGES), "other",
+           f"wall on {os.cpu_count()} cores, s", "peak MB")
 
 
 def note(text):
@@ -79,6 +80,7 @@ def table_row(name, runs, many):
     f = sorted(runs, key=lambda run: run["cpu_seconds"])[(len(runs) - 1) // 2]
     share = f["cpu_seconds"] / f["seconds"]
     stages = [share * sum(f.get(key, 0.0) for key in keys) for _, keys in STAGES]
+    stages.append(max(0.0, f["cpu_seconds"] - sum(stages)))
     return (name, " + ".join(f"{n:,}" for n in f["atoms"]), " x ".join(f"{n:.0f}" for n in f["grid"]),
             f"{f['cpu_seconds']:.1f}", *(f"{s:.2f}" for s in stages), f"{many['seconds']:.1f}",
             f"{f['peak_memory_mb']:.0f}")
