@@ -47,8 +47,8 @@ void choose(int n, std::vector<int>& chosen, std::vector<int>& best) {
 LaneFft::LaneFft(int n) : n_(n) {
   std::vector<int> chosen;
   if (n > 1) choose(n, chosen, radices_);
-  if (n < 1 || (n > 1 && radices_.empty()) || radices_.size() > LaneFftPasses::kMost)
-    throw InputError("LaneFft: expected a size >= 1 without prime factors above 7, got " +
+  if (radices_.empty() || radices_.size() > LaneFftPasses::kMost)
+    throw InputError("LaneFft: expected a size >= 2 without prime factors above 7, got " +
                      std::to_string(n));
   for (int forward = 0; forward < 2; ++forward) {
     int left = n;
@@ -68,23 +68,35 @@ LaneFft::LaneFft(int n) : n_(n) {
                      isa_avx512::kLaneFftTable);
 }
 
+LaneFftPasses LaneFft::passes(bool forward) const {
+  LaneFftPasses result;
+  result.n = n_;
+  result.count = static_cast<int>(radices_.size());
+  for (std::size_t i = 0; i < radices_.size(); ++i) {
+    result.radix[i] = radices_[i];
+    result.twiddles[i] = twiddles_[forward ? 1 : 0][i].data();
+  }
+  return result;
+}
+
 void LaneFft::run(bool forward, const std::complex<float>* in, std::ptrdiff_t in_stride,
                   std::ptrdiff_t in_count, std::complex<float>* out, std::ptrdiff_t out_stride,
                   std::ptrdiff_t columns, Work& work) const {
-  if (radices_.empty()) {  // one point
-    for (std::ptrdiff_t c = 0; c < columns; ++c)
-      out[c] = in_count > 0 ? in[c] : std::complex<float>();
-    return;
-  }
-  LaneFftPasses passes;
-  passes.n = n_;
-  passes.count = static_cast<int>(radices_.size());
-  for (std::size_t i = 0; i < radices_.size(); ++i) {
-    passes.radix[i] = radices_[i];
-    passes.twiddles[i] = twiddles_[forward ? 1 : 0][i].data();
-  }
-  table_->run(passes, forward, reinterpret_cast<const float*>(in), 2 * in_stride, in_count,
+  table_->run(passes(forward), forward, reinterpret_cast<const float*>(in), 2 * in_stride, in_count,
               reinterpret_cast<float*>(out), 2 * out_stride, columns, work.data());
+}
+
+void LaneFft::forward_rows(const float* in, std::ptrdiff_t in_stride, std::ptrdiff_t rows,
+                           std::complex<float>* out, std::ptrdiff_t out_stride, Work& work) const {
+  table_->forward_rows(passes(true), in, in_stride, rows, reinterpret_cast<float*>(out),
+                       2 * out_stride, work.data());
+}
+
+void LaneFft::backward_rows(const std::complex<float>* in, std::ptrdiff_t in_stride,
+                            std::ptrdiff_t rows, float* out, std::ptrdiff_t out_stride,
+                            Work& work) const {
+  table_->backward_rows(passes(false), reinterpret_cast<const float*>(in), 2 * in_stride, rows, out,
+                        out_stride, work.data());
 }
 
 }  // namespace mortise

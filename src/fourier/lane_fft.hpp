@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Transforms of many columns side by side: an axis of a grid that is not the contiguous one.
+/// Transforms of the axes of a grid, many columns or rows side by side.
 #pragma once
 
 #include <complex>
@@ -18,13 +18,13 @@ class LaneFft {
  public:
   static constexpr int kColumns = 8;  ///< columns come in multiples of this
 
-  LaneFft() = default;  ///< of one point
-  /// @throws InputError unless n >= 1 has no prime factor above 7
+  LaneFft() = default;  ///< empty: nothing must be called
+  /// @throws InputError unless n >= 2 has no prime factor above 7
   explicit LaneFft(int n);
 
   /// What one thread needs beside.
   using Work = AlignedVector<float>;
-  [[nodiscard]] Work make_work() const { return Work(2 * 16 * static_cast<std::size_t>(n_)); }
+  [[nodiscard]] Work make_work() const { return Work(4 * 16 * static_cast<std::size_t>(n_)); }
 
   /// @param in_count   elements from there on are taken as 0 and not read; <= n
   /// @param columns    a multiple of kColumns, one beside the other
@@ -34,8 +34,19 @@ class LaneFft {
            std::ptrdiff_t in_count, std::complex<float>* out, std::ptrdiff_t out_stride,
            std::ptrdiff_t columns, Work& work) const;
 
+  /// The contiguous axis: real rows of n floats to n / 2 + 1 complex numbers each. Of `out` as many
+  /// more are overwritten as make a multiple of kColumns.
+  void forward_rows(const float* in, std::ptrdiff_t in_stride, std::ptrdiff_t rows,
+                    std::complex<float>* out, std::ptrdiff_t out_stride, Work& work) const;
+  /// The way back, unnormalised; reads what the other writes. Imaginary parts at frequencies 0 and
+  /// n / 2 do not count.
+  void backward_rows(const std::complex<float>* in, std::ptrdiff_t in_stride, std::ptrdiff_t rows,
+                     float* out, std::ptrdiff_t out_stride, Work& work) const;
+
  private:
-  int n_ = 1;
+  [[nodiscard]] LaneFftPasses passes(bool forward) const;
+
+  int n_ = 0;
   std::vector<int> radices_ = {};
   std::vector<std::vector<float>> twiddles_[2] = {};  // backward, forward: of each pass
   const LaneFftTable* table_ = nullptr;

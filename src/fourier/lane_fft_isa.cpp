@@ -275,8 +275,165 @@ void run(const LaneFftPasses& passes, bool forward, const float* in, std::ptrdif
     run_columns<false>(passes, in, in_stride, in_count, out, out_stride, columns, work);
 }
 
+template <int... L>
+struct Numbers {};
+template <int N, int... L>
+struct NumbersBelow : NumbersBelow<N - 1, N - 1, L...> {};
+template <int... L>
+struct NumbersBelow<0, L...> {
+  using Type = Numbers<L...>;
+};
+
+// Of two vectors whose numbers differ by S the halves that belong together once lanes and vectors
+// have changed places in this bit.
+template <int N, int S, class V, int... L>
+[[gnu::always_inline]] inline void exchange(V& a, V& b, Numbers<L...>) {
+  const V low = __builtin_shufflevector(a, b, ((L & S) == 0 ? L : N + L - S)...);
+  const V high = __builtin_shufflevector(a, b, ((L & S) == 0 ? L + S : N + L)...);
+  a = low;
+  b = high;
+}
+
+// Lane l of vector i becomes lane i of vector l.
+template <int N, int S = 1, class V>
+[[gnu::always_inline]] inline void transpose(V* a) {
+  if constexpr (S < N) {
+    each<0, N - 1>([&](auto i) __attribute__((always_inline)) {
+      constexpr int kI = decltype(i)::value;
+      if constexpr ((kI & S) == 0)
+        exchange<N, S>(a[kI], a[kI + S], typename NumbersBelow<N>::Type{});
+    });
+    transpose<N, 2 * S>(a);
+  }
+}
+
+// Up to kLanes rows of n floats, one vector for each column of them.
+void gather_rows(const float* in, std::ptrdiff_t stride, std::ptrdiff_t rows, std::ptrdiff_t n,
+                 float* out) {
+  std::ptrdiff_t z = 0;
+  for (; z + kLanes <= n; z += kLanes) {
+    Lanes a[kLanes];
+    each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
+      constexpr int kI = decltype(i)::value;
+      a[kI] = kI < rows ? load(in + kI * stride + z) : Lanes{};
+    });
+    transpose<kLanes>(a);
+    each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
+      store(out + (z + decltype(i)::value) * kLanes, a[decltype(i)::value]);
+    });
+  }
+  for (; z < n; ++z)
+    for (std::ptrdiff_t i = 0; i < kLanes; ++i)
+      out[z * kLanes + i] = i < rows ? in[i * stride + z] : 0.0F;
+}
+
+void scatter_rows(const float* in, std::ptrdiff_t rows, std::ptrdiff_t n, float* out,
+                  std::ptrdiff_t stride) {
+  std::ptrdiff_t z = 0;
+  for (; z + kLanes <= n; z += kLanes) {
+    Lanes a[kLanes];
+    each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
+      a[decltype(i)::value] = load(in + (z + decltype(i)::value) * kLanes);
+    });
+    transpose<kLanes>(a);
+    each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
+      constexpr int kI = decltype(i)::value;
+      if (kI < rows) store(out + kI * stride + z, a[kI]);
+    });
+  }
+  for (; z < n; ++z)
+    for (std::ptrdiff_t i = 0; i < rows; ++i) out[i * stride + z] = in[z * kLanes + i];
+}
+
+constexpr int kPairs = kLanes / 2;  // complex numbers in a vector
+
+[[gnu::always_inline]] inline Doubles as_doubles(const Lanes& v) {
+  Doubles d;
+  __builtin_memcpy(&d, &v, sizeof d);
+  return d;
+}
+[[gnu::always_inline]] inline Lanes as_lanes(const Doubles& d) {
+  Lanes v;
+  __builtin_memcpy(&v, &d, sizeof v);
+  return v;
+}
+
+// Two real rows, 2 c and 2 c + 1, are the real and imaginary parts of column c: with Z its
+// transform, their spectra are (Z(k) + Z*(-k)) / 2 and (Z(k) - Z*(-k)) / 2i.
+void forward_rows(const LaneFftPasses& f, const float* in, std::ptrdiff_t in_stride,
+                  std::ptrdiff_t rows, float* out, std::ptrdiff_t out_stride, float* work) {
+  float* const spectra = work + static_cast<std::ptrdiff_t>(f.n) * kLanes;
+  float* const more = spectra + static_cast<std::ptrdiff_t>(f.n) * kLanes;
+  const Lanes conjugate = pairs(1.0F, -1.0F);
+  for (std::ptrdiff_t r = 0; r < rows; r += kLanes) {
+    const std::ptrdiff_t count = rows - r < kLanes ? rows - r : kLanes;
+    gather_rows(in + r * in_stride, in_stride, count, f.n, work);
+    run_columns<true>(f, work, kLanes, f.n, spectra, kLanes, kPairs, more);
+    for (std::ptrdiff_t k = 0; k <= f.n / 2; k += kPairs) {
+      Doubles even[kPairs], odd[kPairs];
+      each<0, kPairs - 1>([&](auto i) __attribute__((always_inline)) {
+        constexpr int kI = decltype(i)::value;
+        const std::ptrdiff_t at = k + kI;
+        Lanes sum = {}, difference = {};
+        if (at <= f.n / 2) {
+          const Lanes here = load(spectra + at * kLanes);
+          const Lanes mirrored = load(spectra + (at == 0 ? 0 : f.n - at) * kLanes) * conjugate;
+          sum = 0.5F * (here + mirrored);
+          difference = 0.5F * swapped(here - mirrored) * conjugate;
+        }
+        even[kI] = as_doubles(sum);
+        odd[kI] = as_doubles(difference);
+      });
+      transpose<kPairs>(even);
+      transpose<kPairs>(odd);
+      each<0, kPairs - 1>([&](auto i) __attribute__((always_inline)) {
+        constexpr int kI = decltype(i)::value;
+        if (2 * kI < count) store(out + (r + 2 * kI) * out_stride + 2 * k, as_lanes(even[kI]));
+        if (2 * kI + 1 < count)
+          store(out + (r + 2 * kI + 1) * out_stride + 2 * k, as_lanes(odd[kI]));
+      });
+    }
+  }
+}
+
+void backward_rows(const LaneFftPasses& f, const float* in, std::ptrdiff_t in_stride,
+                   std::ptrdiff_t rows, float* out, std::ptrdiff_t out_stride, float* work) {
+  float* const spectra = work + static_cast<std::ptrdiff_t>(f.n) * kLanes;
+  float* const more = spectra + static_cast<std::ptrdiff_t>(f.n) * kLanes;
+  const Lanes conjugate = pairs(1.0F, -1.0F);
+  for (std::ptrdiff_t r = 0; r < rows; r += kLanes) {
+    const std::ptrdiff_t count = rows - r < kLanes ? rows - r : kLanes;
+    for (std::ptrdiff_t k = 0; k <= f.n / 2; k += kPairs) {
+      Doubles even[kPairs], odd[kPairs];
+      each<0, kPairs - 1>([&](auto i) __attribute__((always_inline)) {
+        constexpr int kI = decltype(i)::value;
+        const float* const row = in + (r + 2 * kI) * in_stride + 2 * k;
+        even[kI] = 2 * kI < count ? as_doubles(load(row)) : Doubles{};
+        odd[kI] = 2 * kI + 1 < count ? as_doubles(load(row + in_stride)) : Doubles{};
+      });
+      transpose<kPairs>(even);
+      transpose<kPairs>(odd);
+      each<0, kPairs - 1>([&](auto i) __attribute__((always_inline)) {
+        const std::ptrdiff_t at = k + decltype(i)::value;
+        if (at > f.n / 2) return;
+        Lanes a = as_lanes(even[decltype(i)::value]), b = as_lanes(odd[decltype(i)::value]);
+        if (at == 0 || 2 * at == f.n) {
+          a *= pairs(1.0F, 0.0F);
+          b *= pairs(1.0F, 0.0F);
+        }
+        // i b = -swapped(b*), i b* = swapped(b).
+        store(spectra + at * kLanes, a - swapped(b) * conjugate);
+        if (at > 0 && 2 * at < f.n)
+          store(spectra + (f.n - at) * kLanes, a * conjugate + swapped(b));
+      });
+    }
+    run_columns<false>(f, spectra, kLanes, f.n, work, kLanes, kPairs, more);
+    scatter_rows(work, count, f.n, out + r * out_stride, out_stride);
+  }
+}
+
 }  // namespace
 
-const LaneFftTable kLaneFftTable = {run};
+const LaneFftTable kLaneFftTable = {run, forward_rows, backward_rows};
 
 }  // namespace mortise::MORTISE_ISA

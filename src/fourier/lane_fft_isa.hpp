@@ -28,6 +28,14 @@ struct LaneFftTable {
   void (*run)(const LaneFftPasses& passes, bool forward, const float* in, std::ptrdiff_t in_stride,
               std::ptrdiff_t in_count, float* out, std::ptrdiff_t out_stride,
               std::ptrdiff_t columns, float* work);
+  /// Real rows of n contiguous floats to n / 2 + 1 complex numbers each, forward. Of `out` as many
+  /// more are overwritten as make 8.
+  /// @param work  4 x n x 16 floats
+  void (*forward_rows)(const LaneFftPasses& passes, const float* in, std::ptrdiff_t in_stride,
+                       std::ptrdiff_t rows, float* out, std::ptrdiff_t out_stride, float* work);
+  /// The way back, unnormalised. Imaginary parts at frequency 0 and n / 2 do not count.
+  void (*backward_rows)(const LaneFftPasses& passes, const float* in, std::ptrdiff_t in_stride,
+                        std::ptrdiff_t rows, float* out, std::ptrdiff_t out_stride, float* work);
 };
 
 }  // namespace mortise

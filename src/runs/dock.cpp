@@ -57,9 +57,10 @@ std::shared_ptr<const MapScorer> map_scorer(const Body& fixed, const Body& movin
       shape_kernel(shape, options.radius, options.radius, {.cutoff = options.search.cutoff});
   // The channel's weights are i w, so that a pair counts -w w'.
   const Knots& knots = plan.fixed.knots;
-  auto maps =
-      std::make_shared<ScoreMaps>(fixed_points, potential, knots.points.topRows<3>(),
-                                  -potential.shape * knots.weights.real(), kernel, map_options);
+  auto maps = std::make_shared<ScoreMaps>(
+      fixed_points, potential,
+      shape_terms(knots.points.topRows<3>(), -potential.shape * knots.weights.real(), kernel),
+      map_options);
   PlacedPoints placed(moving_points, plan.moving.knots.points.topRows<3>(),
                       plan.moving.knots.weights.real().transpose());
   return std::make_shared<MapScorer>(std::move(maps), std::move(placed));

@@ -50,13 +50,52 @@ double error_of(int n, bool forward, int in_count, int columns, bool in_place) {
 
 // Rounding grows with the root of the number of passes: 2e-7 is found.
 TEST(LaneFft, IsTheDirectSumForEverySizeOfAGrid) {
-  for (int n = 2; n <= 260; n = good_fft_size(n + 1))
+  for (int n = 2; n <= 162; n = good_fft_size(n + 1))
     for (const bool forward : {true, false}) {
       EXPECT_LT(error_of(n, forward, n, 8, false), 5e-7) << n;
       EXPECT_LT(error_of(n, forward, (n + 1) / 2, 24, n % 4 == 0), 5e-7) << n;
     }
-  for (const int n : {1, 3, 5, 7, 15, 21, 343, 1000, 1024})
+  for (const int n : {3, 5, 7, 15, 21, 200, 343, 1000})
     EXPECT_LT(error_of(n, true, n, 8, false), 5e-7) << n;
+}
+
+// Rows there and back, against FFTW's; what is no part of a row stays as it is.
+TEST(LaneFft, RowsAreThoseOfTheReferenceBothWays) {
+  for (int n = 2; n <= 120; n = n < 10 ? n + 1 : good_fft_size(n + 1))
+    for (const int rows : {1, 16, 37}) {
+      std::mt19937 random(static_cast<unsigned>(n));
+      std::uniform_real_distribution<float> number(-1.0F, 1.0F);
+      const int nc = n / 2 + 1, stride = n + 3, columns = (nc + 7) / 8 * 8;
+      AlignedVector<float> in(static_cast<std::size_t>(rows) * stride);
+      for (float& x : in) x = number(random);
+      AlignedVector<Complex> out(static_cast<std::size_t>(rows) * columns),
+          expected(static_cast<std::size_t>(rows) * columns);
+      const LaneFft fft(n);
+      LaneFft::Work work = fft.make_work();
+      fft.forward_rows(in.data(), stride, rows, out.data(), columns, work);
+      FftPlan<float>::real_to_complex({{{n, 1, 1}}, {{rows, stride, columns}}}, false)
+          .run(in.data(), expected.data());
+      const auto error = [](const auto& a, const auto& b, int part, int whole) {
+        double sum = 0.0, size = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+          if (static_cast<int>(i) % whole >= part) continue;
+          sum += std::norm(a[i] - b[i]);
+          size += std::norm(b[i]);
+        }
+        return std::sqrt(sum / size);
+      };
+      EXPECT_LT(error(out, expected, nc, columns), 5e-7) << n << " " << rows;
+
+      for (Complex& c : out) c = {number(random), number(random)};
+      AlignedVector<float> back(in.size(), 7.0F), back_expected(in.size(), 7.0F);
+      fft.backward_rows(out.data(), columns, rows, back.data(), stride, work);
+      FftPlan<float>::complex_to_real({{{n, 1, 1}}, {{rows, columns, stride}}}, false)
+          .run(out.data(), back_expected.data());
+      EXPECT_LT(error(back, back_expected, n, stride), 5e-7) << n << " " << rows;
+      for (std::size_t i = 0; i < back.size(); ++i) {
+        if (static_cast<int>(i) % stride >= n) EXPECT_EQ(back[i], 7.0F);
+      }
+    }
 }
 
 TEST(LaneFft, NothingInNothingOut) {
@@ -68,7 +107,7 @@ TEST(LaneFft, NothingInNothingOut) {
 }
 
 TEST(LaneFft, RefusesOtherSizes) {
-  for (const int n : {0, -4, 11, 26}) EXPECT_THROW(LaneFft{n}, InputError) << n;
+  for (const int n : {0, 1, -4, 11, 26}) EXPECT_THROW(LaneFft{n}, InputError) << n;
 }
 
 }  // namespace
