@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that includes point one way, by the table of rooms in docs/architecture.md.
+"""Checks that includes point one way, by the table of rooms in docs/architecture.md, and that the table allows
+no more than what some file of the room includes.
 
 Usage: include_direction_test.py [SOURCE_DIR]      check the tree
        include_direction_test.py --self-test       check that each kind of fault is found
@@ -51,7 +52,8 @@ def included_room(name, own_room, is_public):
     return own_room if len(parts) == 1 else parts[0]
 
 
-def file_faults(path, shown, room, is_public, table):
+def file_faults(path, shown, room, is_public, table, used):
+    """Faults of one file; adds the rooms that it includes to `used`."""
     text = path.read_text(encoding="utf-8")
     for match in INCLUDE.finditer(text):
         bracket, name = match.groups()
@@ -65,6 +67,7 @@ def file_faults(path, shown, room, is_public, table):
                 yield f"{where}: {name}: a public header expects public headers, \"mortise/<room>/...\""
                 continue
             target = included_room(name, room, is_public)
+            used.add((room, target))
             if target != room and target not in table[room]:
                 allowed = ", ".join(sorted(table[room])) or "no other room"
                 yield f"{where}: {name}: room `{room}` may include {allowed}"
@@ -79,7 +82,7 @@ def tree_faults(source_dir):
         yield "docs/architecture.md: expected a table of rooms under '## Rooms', found none"
         return
     yield from table_faults(table)
-    seen = set()
+    seen, used = set(), set()
     for base, is_public in (("include/mortise", True), ("src", False)):
         for path in sorted((source_dir / base).rglob("*")):
             if not path.name.endswith((".hpp", ".hpp.in", ".cpp", ".h", ".inc")):
@@ -94,7 +97,7 @@ def tree_faults(source_dir):
             if room not in table:
                 yield f"{shown}: room `{room}` has no row in docs/architecture.md"
                 continue
-            yield from file_faults(path, shown, room, is_public, table)
+            yield from file_faults(path, shown, room, is_public, table, used)
     for path in sorted((source_dir / "apps").glob("*.?pp")):
         for match in INCLUDE.finditer(path.read_text(encoding="utf-8")):
             bracket, name = match.groups()
@@ -104,17 +107,22 @@ def tree_faults(source_dir):
         directory = source_dir / "src" / room
         if not directory.is_dir():
             yield f"docs/architecture.md: room `{room}` has a row, but src/{room}/ is not there"
+    for room in sorted(seen & table.keys()):
+        for other in sorted(table[room] & table.keys()):
+            if (room, other) not in used:
+                yield f"docs/architecture.md: room `{room}` may include `{other}`, but no file of it does"
 
 
 def self_test():
     """Builds a small tree, breaks it in each way and expects exactly one fault."""
-    architecture = "## Rooms\n| `low` | . | |\n| `high` | . | low |\n## Next\n"
+    architecture = "## Rooms\n| `low` | . | |\n| `high` | . | low |\n| `free` | . | |\n## Next\n"
     good = {
         "docs/architecture.md": architecture,
         "include/mortise/low/a.hpp": "#include <vector>\n#include <Eigen/Core>\n",
         "include/mortise/high/b.hpp": '#include "mortise/low/a.hpp"\n',
         "src/low/a.cpp": '#include "mortise/low/a.hpp"\n#include <fftw3.h>\n#include "helper.hpp"\n',
         "src/low/helper.hpp": "",
+        "src/free/c.cpp": "",
         "src/high/b.cpp": '#include "mortise/high/b.hpp"\n#include "low/helper.hpp"\n',
         "apps/main.cpp": '#include "mortise/high/b.hpp"\n#include "commands.hpp"\n',
     }
@@ -128,11 +136,14 @@ def self_test():
         "private header in a public one": ("include/mortise/low/a.hpp", '#include "low/helper.hpp"\n'),
         "parent directory": ("src/high/b.cpp", '#include "../low/helper.hpp"\n'),
         "program sees a private header": ("apps/main.cpp", '#include "low/helper.hpp"\n'),
-        "room without a row": ("src/third/c.cpp", ""),
+        "room without a row": ("src/other/c.cpp", ""),
         "file outside all rooms": ("src/c.cpp", ""),
         "row without a room": ("docs/architecture.md", architecture.replace("## Next", "| `ghost` | . | |\n## Next")),
+        "allowed, but not included": ("docs/architecture.md",
+                                      architecture.replace("| `free` | . | |", "| `free` | . | low |")),
         "unknown name in the table": ("docs/architecture.md", architecture.replace("| low |", "| low, lo |")),
     }
+    # Each of the two rooms is named, and that `low` never includes `high`.
     circle = {"docs/architecture.md": architecture.replace("| `low` | . | |", "| `low` | . | high |")}
     failures = 0
 
@@ -151,7 +162,7 @@ def self_test():
     check("good tree", good, 0)
     for label, (name, text) in broken.items():
         check(label, {**good, name: text}, 1)
-    check("circle", {**good, **circle}, 2)
+    check("circle", {**good, **circle}, 3)
     return failures
 
 
