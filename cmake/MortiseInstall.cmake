@@ -5,7 +5,7 @@ install(TARGETS mortise EXPORT mortise-targets)
 install(TARGETS mortise_step LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS mortise_program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/mortise ${PROJECT_BINARY_DIR}/include/mortise
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING REGEX "\\.(h|hpp)$")
 install(EXPORT mortise-targets NAMESPACE mortise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mortise)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/mortise-config.cmake.in ${PROJECT_BINARY_DIR}/mortise-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mortise)
