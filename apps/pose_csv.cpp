@@ -12,25 +12,12 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise::app {
 namespace {
 
 constexpr std::array<const char*, 7> kColumns = {"qw", "qx", "qy", "qz", "tx", "ty", "tz"};
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      fields.emplace_back();
-    else if (c != '\r')
-      fields.back() += c;
-  }
-  return fields;
-}
 
 }  // namespace
 
@@ -39,7 +26,7 @@ std::vector<RigidMotion> read_pose_csv(const std::string& path) {
   std::string line;
   if (!file) throw FileError(path, "cannot be read");
   if (!std::getline(file, line)) throw FileError(path, "is empty; expected a head with qw ... tz");
-  const std::vector<std::string> head = split(line);
+  const std::vector<std::string> head = csv_cells(line);
   std::array<std::size_t, 7> place = {};
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     while (place[c] < head.size() && head[place[c]] != kColumns[c]) ++place[c];
@@ -49,7 +36,7 @@ std::vector<RigidMotion> read_pose_csv(const std::string& path) {
   std::vector<RigidMotion> poses;
   for (long number = 2; std::getline(file, line); ++number) {
     if (line.empty() || line == "\r") continue;
-    const std::vector<std::string> fields = split(line);
+    const std::vector<std::string> fields = csv_cells(line);
     std::array<double, 7> v = {};
     for (std::size_t c = 0; c < v.size(); ++c) {
       const std::string text = place[c] < fields.size() ? fields[place[c]] : "";

@@ -9,12 +9,12 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "mortise/metrics/interface.hpp"
 #include "mortise/molecules/read_molecule.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise {
 namespace {
@@ -56,9 +56,7 @@ int run(const std::string& table) {
       "atom_contacts,hydrogen_bonds,clashes,atoms,build_ms,pose_ms\n");
   const std::string folder = std::filesystem::path(table).parent_path().string() + "/";
   while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    std::vector<std::string> row;
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    const std::vector<std::string> row = csv_cells(line);
     if (row.size() >= 6) describe(row[0], folder + row[4], folder + row[5]);
   }
   return 0;

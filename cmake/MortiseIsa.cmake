@@ -22,6 +22,7 @@ function(mortise_add_isa_sources target)
   foreach(source IN LISTS ARGN)
     cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE path)
     cmake_path(GET source STEM stem)
+    set_property(GLOBAL APPEND PROPERTY MORTISE_ISA_SOURCES ${stem})
     foreach(level baseline avx2 avx512)
       set(copy ${CMAKE_CURRENT_BINARY_DIR}/isa_${level}/${stem}.cpp)
       file(CONFIGURE OUTPUT ${copy} CONTENT "#define MORTISE_ISA isa_${level}\n#include \"${path}\"\n" @ONLY)
@@ -31,5 +32,30 @@ function(mortise_add_isa_sources target)
         PROPERTIES COMPILE_OPTIONS
                    "$<$<NOT:$<CONFIG:Debug>>:-O3>;-ffp-contract=fast;-fno-math-errno;-fno-trapping-math;${MORTISE_ISA_FLAGS_${level}}")
     endforeach()
+  endforeach()
+endfunction()
+
+# mortise_add_isa_tests(<room> <filter> <source stem>...): the room's tests of that filter once more with the copies for
+# lesser processors (where this one cannot do better than one of them, they repeat the ordinary run, which has the best
+# copy). The tests named must compare the sources' results with a reference, to the tolerance that stands there.
+function(mortise_add_isa_tests room filter)
+  foreach(level baseline avx2)
+    set(name isa.${room}.${level})
+    add_test(NAME ${name} COMMAND mortise_${room}_tests "--gtest_filter=${filter}")
+    # GoogleTest passes when a filter matches nothing.
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT MORTISE_ISA=${level} TIMEOUT 600
+                                            FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY MORTISE_ISA_TESTED ${ARGN})
+endfunction()
+
+# Stops unless each source of mortise_add_isa_sources is named by mortise_add_isa_tests.
+function(mortise_check_isa_tests)
+  get_property(sources GLOBAL PROPERTY MORTISE_ISA_SOURCES)
+  get_property(tested GLOBAL PROPERTY MORTISE_ISA_TESTED)
+  foreach(stem IN LISTS sources)
+    if(NOT stem IN_LIST tested)
+      message(FATAL_ERROR "${stem}.cpp is compiled once per instruction set, and no mortise_add_isa_tests names it")
+    endif()
   endforeach()
 endfunction()

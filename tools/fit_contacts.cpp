@@ -23,7 +23,6 @@
 #include <fstream>
 #include <numeric>
 #include <random>
-#include <sstream>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
@@ -34,6 +33,7 @@
 #include "mortise/runs/dock.hpp"
 #include "mortise/scoring/contact_potential.hpp"
 #include "mortise/scoring/score_maps.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise {
 namespace {
@@ -62,12 +62,10 @@ std::vector<std::vector<std::string>> read_table(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw FileError(path, "cannot be read");
   std::vector<std::vector<std::string>> rows;
-  std::string line, field;
+  std::string line;
   std::getline(file, line);
   while (std::getline(file, line)) {
-    std::istringstream stream(line);
-    rows.emplace_back();
-    while (std::getline(stream, field, ',')) rows.back().push_back(field);
+    rows.push_back(csv_cells(line));
     if (rows.back().size() < 6)
       throw FileError(path, static_cast<long>(rows.size()) + 1, "expected 6 fields");
   }

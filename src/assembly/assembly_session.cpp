@@ -8,6 +8,7 @@
 
 #include "mortise/collision/gap_function.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -93,10 +94,7 @@ Rest follow(const AssemblySession& session, const RigidMotion& start,
     const Eigen::Vector3d move = kKept * shift + (1.0 - kKept) * push;
     const Eigen::Vector3d spin = kKept * turn + (1.0 - kKept) * twist;
     RigidMotion next = rest.pose;
-    const double angle = spin.norm();
-    if (angle > 0.0)
-      next.rotation = canonical(Eigen::Quaterniond(Eigen::AngleAxisd(angle, spin / angle)) *
-                                rest.pose.rotation);
+    next.rotation = canonical(rotation_from_vector(spin) * rest.pose.rotation);
     next.translation = rest.pose * centre + move - next.rotation * centre;
     const Wrench felt = session.wrench(next);
     if (felt.energy <= rest.wrench.energy) {

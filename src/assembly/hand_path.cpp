@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/core/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -24,12 +25,6 @@ Eigen::Vector3d direction(std::mt19937_64& random) {
   const double z = 2.0 * uniform(random) - 1.0, a = 2.0 * std::numbers::pi * uniform(random);
   const double r = std::sqrt(1.0 - z * z);
   return {r * std::cos(a), r * std::sin(a), z};
-}
-
-Eigen::Quaterniond rotation(const Eigen::Vector3d& turn) {
-  const double angle = turn.norm();
-  return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle))
-                     : Eigen::Quaterniond::Identity();
 }
 
 }  // namespace
@@ -90,7 +85,7 @@ std::vector<RigidMotion> hand_path(const RigidMotion& goal, const Eigen::Vector3
     for (const Wave& w : waves)
       shift +=
           amplitude * std::sin(2.0 * std::numbers::pi * w.frequency * time + w.phase) * w.direction;
-    path[i].rotation = canonical(rotation(turn) * goal.rotation);
+    path[i].rotation = canonical(rotation_from_vector(turn) * goal.rotation);
     path[i].translation = goal_centre + shift - path[i].rotation * centre;
   }
   return path;

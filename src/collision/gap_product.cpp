@@ -4,19 +4,14 @@
 #include <complex>
 
 #include "collision/gap_state.hpp"
+#include "mortise/core/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
 
 RigidMotion moved_along(const RigidMotion& pose, const Eigen::Vector3d& translation,
                         const Eigen::Vector3d& rotation, double s) {
-  const double angle = s * rotation.norm();
-  RigidMotion result = pose;
-  if (angle != 0.0)
-    result.rotation =
-        Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation.normalized())) * pose.rotation;
-  result.translation += s * translation;
-  return result;
+  return {rotation_from_vector(s * rotation) * pose.rotation, pose.translation + s * translation};
 }
 
 }  // namespace

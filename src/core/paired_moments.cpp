@@ -69,6 +69,12 @@ double rmsd_superposed(const PairedMoments& moments) {
   return std::sqrt(std::max(0.0, residual / moments.count));
 }
 
+Eigen::Quaterniond best_rotation(const PairedMoments& moments) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(horn_matrix(moments.cross));
+  const Eigen::Vector4d q = solver.eigenvectors().col(3);
+  return {q(0), q(1), q(2), q(3)};
+}
+
 Eigen::Matrix4d horn_matrix(const Eigen::Matrix3d& cross) {
   const Eigen::Matrix3d& s = cross;
   Eigen::Matrix4d n;

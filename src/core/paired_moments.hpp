@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace mortise::detail {
 
@@ -31,6 +32,9 @@ struct PairedMoments {
 
 // RMSD of the pairs after the best superposition.
 [[nodiscard]] double rmsd_superposed(const PairedMoments& moments);
+
+// The rotation of the model that superposes it best, either of the two quaternions.
+[[nodiscard]] Eigen::Quaterniond best_rotation(const PairedMoments& moments);
 
 // Horn's symmetric 4 x 4 matrix: its largest eigenvalue is max_R tr(R cross), its eigenvector the
 // quaternion (w, x, y, z) of that R.

@@ -2,12 +2,12 @@
 // Singular value decomposition of phi(k, r + o) on nodes; derivation in docs/math.md.
 #include "mortise/kernels/compressed_radius.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "kernels/quadrature.hpp"
+#include "kernels/thin_svd.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
@@ -129,14 +129,11 @@ void CompressedRadius::fit(int k_count, double k_max, double tolerance,
     by_frequency.segment(o * k_count, k_count) =
         in_k.weights.cwiseSqrt() / (size > 0.0 ? size : 1.0);
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(
-      by_frequency.asDiagonal() * fitted * by_radius.asDiagonal(),
-      Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  const auto [u, sigma, v] = thin_svd(by_frequency.asDiagonal() * fitted * by_radius.asDiagonal());
 
-  from_radii_ = by_radius.asDiagonal() * svd.matrixV();
-  at_radii_ = by_radius.cwiseInverse().asDiagonal() * svd.matrixV();
-  from_frequency_ = by_frequency.asDiagonal() * svd.matrixU() *
+  from_radii_ = by_radius.asDiagonal() * v;
+  at_radii_ = by_radius.cwiseInverse().asDiagonal() * v;
+  from_frequency_ = by_frequency.asDiagonal() * u *
                     sigma.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; }).asDiagonal();
   // Values of all a_q and b_q on the fine grid.
   const Eigen::MatrixXd a = table(fine_k, fine, count, radius) * from_radii_;

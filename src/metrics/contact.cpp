@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "core/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/diameter.hpp"
 #include "mortise/parts/sample_surface.hpp"
@@ -79,11 +79,8 @@ void find_pull(const Touching& touching, ContactReport& report) {
   Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
   double least = kFar;
   const Eigen::Vector3d mean = touching.normals * touching.areas / total;
-  for (int i = 0; i < kDirections; ++i) {  // a Fibonacci spiral
-    const double z = 1.0 - (2.0 * i + 1.0) / kDirections;
-    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(1.0 - z * z);
-    const Eigen::Vector3d u(r * std::cos(angle), r * std::sin(angle), z);
+  const Eigen::Matrix3Xd everywhere = detail::fibonacci_sphere(kDirections);
+  for (const Eigen::Vector3d u : everywhere.colwise()) {
     // Of many free directions the one most along the surfaces' mean normal.
     const double value = cost(u) - 1e-3 * u.dot(mean);
     if (value < least) {

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "core/point_grid.hpp"
+#include "core/sphere_points.hpp"
 #include "metrics/probe_arcs.hpp"
 #include "molecules/check_balls.hpp"
-#include "molecules/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 
@@ -146,7 +146,7 @@ class Surface {
 
   [[nodiscard]] Eigen::Matrix3Xd lattice(double radius) const {
     const double count = 4.0 * std::numbers::pi * radius * radius * density_;
-    return molecules::fibonacci_sphere(std::max(1, static_cast<int>(std::lround(count))));
+    return detail::fibonacci_sphere(std::max(1, static_cast<int>(std::lround(count))));
   }
 
   void add_contact(std::int32_t i, const std::vector<std::int32_t>& near, Piece& out) const {

@@ -2,7 +2,6 @@
 // Horn's superposition on top of the paired moments.
 #include "mortise/metrics/superpose.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
 
@@ -25,10 +24,8 @@ void check_pairs(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b, const cha
 Superposition superpose(const Eigen::Matrix3Xd& model, const Eigen::Matrix3Xd& reference) {
   check_pairs(model, reference, "superpose");
   const detail::PairedMoments moments = detail::paired_moments(model, reference);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(detail::horn_matrix(moments.cross));
-  const Eigen::Vector4d q = solver.eigenvectors().col(3);
   Superposition out;
-  out.motion.rotation = canonical(Eigen::Quaterniond(q(0), q(1), q(2), q(3)));
+  out.motion.rotation = canonical(detail::best_rotation(moments));
   out.motion.translation = moments.reference_mean - out.motion.rotation * moments.model_mean;
   out.rmsd = rmsd(out.motion * model, reference);  // from the points: exact near zero
   return out;

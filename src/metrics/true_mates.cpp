@@ -3,12 +3,12 @@
 #include "mortise/metrics/true_mates.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/core/read_file.hpp"
 
 namespace mortise {
 namespace {
@@ -137,12 +137,11 @@ RigidMotion member(const Symmetry& s, const double* parameters) {
 }
 
 std::vector<TrueMate> read_true_mates(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw FileError(path, "cannot be read");
+  const std::string text = read_whole_file(path);
   std::vector<TrueMate> mates;
   std::string where;
   try {
-    const Json json = Json::parse(file);
+    const Json json = Json::parse(text);
     if (json.contains("pose")) {
       mates.push_back(parse_mate(json, true));
       return mates;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/sphere_points.hpp"
 #include "molecules/check_balls.hpp"
-#include "molecules/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/molecules/radii.hpp"
@@ -169,7 +169,7 @@ Eigen::VectorXd accessible_areas(const Eigen::Matrix3Xd& centres, const Eigen::V
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(radii.size());
   if (radii.size() == 0) return areas;
   const Eigen::VectorXd grown = radii.array() + options.probe_radius;
-  for_each_exposed(centres, grown, molecules::fibonacci_sphere(options.points_per_atom),
+  for_each_exposed(centres, grown, detail::fibonacci_sphere(options.points_per_atom),
                    options.threads, [&](int i, const std::vector<Eigen::Index>& exposed) {
                      areas[i] = area_of(grown[i], exposed.size(), options);
                    });
@@ -188,7 +188,7 @@ AccessiblePoints accessible_points(const Eigen::Matrix3Xd& centres, const Eigen:
   out.first.assign(static_cast<std::size_t>(radii.size()) + 1, 0);
   if (radii.size() == 0) return out;
   const Eigen::VectorXd grown = radii.array() + options.probe_radius;
-  const Eigen::Matrix3Xd points = molecules::fibonacci_sphere(options.points_per_atom);
+  const Eigen::Matrix3Xd points = detail::fibonacci_sphere(options.points_per_atom);
   std::vector<std::vector<Eigen::Index>> directions(static_cast<std::size_t>(radii.size()));
   for_each_exposed(
       centres, grown, points, options.threads,

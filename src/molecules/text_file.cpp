@@ -7,15 +7,12 @@
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "molecules/atom_records.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/read_file.hpp"
 
 namespace mortise::molecules {
 namespace {
@@ -57,23 +54,7 @@ std::string_view trim(std::string_view text) {
 }
 
 std::string read_text(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw FileError(path, "expected a structure file, found none");
-  if (status.type() == std::filesystem::file_type::none)  // a folder on the way is closed to us
-    throw FileError(path, "cannot be opened: " + error.message());
-  if (std::filesystem::is_directory(status))
-    throw FileError(path, "expected a structure file, found a directory");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path, std::string("cannot be opened: ") + std::strerror(errno));
-  std::string text;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error) text.reserve(size);
-  char buffer[1 << 16];
-  while (file.read(buffer, sizeof buffer) || file.gcount() > 0)
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
+  std::string text = read_whole_file(path, "a structure file");
   if (text.empty()) throw FileError(path, "expected a structure, found an empty file");
   if (is_gzip(text)) {
     text = unpack(path, text);

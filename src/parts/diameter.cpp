@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
@@ -16,12 +16,10 @@ std::vector<Eigen::Index> outermost_vertices(const Eigen::Matrix3Xd& vertices, i
       0.5 * (vertices.rowwise().minCoeff() + vertices.rowwise().maxCoeff());
   const Eigen::Matrix3Xd centred = vertices.colwise() - centre;
   std::vector<Eigen::Index> found;
-  for (int i = 0; i < directions; ++i) {  // a Fibonacci spiral
-    const double z = 1.0 - (2.0 * i + 1.0) / directions;
-    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(1.0 - z * z);
+  const Eigen::Matrix3Xd everywhere = detail::fibonacci_sphere(directions);
+  for (const auto& direction : everywhere.colwise()) {
     Eigen::Index at = 0;
-    (Eigen::RowVector3d(r * std::cos(angle), r * std::sin(angle), z) * centred).maxCoeff(&at);
+    (direction.transpose() * centred).maxCoeff(&at);
     found.push_back(at);
   }
   std::sort(found.begin(), found.end());

@@ -2,13 +2,12 @@
 // A file's bytes and which format they are.
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/core/read_file.hpp"
 #include "mortise/parts/read_part.hpp"
 #include "parts/mesh_files.hpp"
 
@@ -61,23 +60,7 @@ bool looks_like_obj(std::string_view bytes) {
 }  // namespace
 
 std::string read_bytes(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw FileError(path, "expected a mesh or STEP file, found none");
-  if (status.type() == std::filesystem::file_type::none)  // a folder on the way is closed to us
-    throw FileError(path, "cannot be opened: " + error.message());
-  if (std::filesystem::is_directory(status))
-    throw FileError(path, "expected a mesh or STEP file, found a directory");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path, std::string("cannot be opened: ") + std::strerror(errno));
-  std::string bytes;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error) bytes.reserve(size);
-  std::vector<char> buffer(1 << 16);
-  while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-    bytes.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
+  std::string bytes = read_whole_file(path, "a mesh or STEP file");
   if (bytes.empty()) throw FileError(path, "expected a mesh or STEP file, found an empty one");
   return bytes;
 }

@@ -11,8 +11,8 @@
 #include "mortise/molecules/radii.hpp"
 #include "mortise/parts/sample_surface.hpp"
 #include "mortise/poses/cluster.hpp"
+#include "mortise/store/csv.hpp"
 #include "report/heavy_atoms.hpp"
-#include "store/csv_text.hpp"
 
 namespace mortise {
 namespace {

@@ -13,6 +13,7 @@
 #include "mortise/runs/benchmark.hpp"
 #include "mortise/runs/run_kind.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise {
 namespace {
@@ -22,31 +23,6 @@ namespace fs = std::filesystem;
 constexpr const char* kPairsHeader =
     "name,unbound_interface_rmsd,fixed,moving,reference_fixed,reference_moving";
 constexpr const char* kOptionsMark = "# mortise benchmark ";
-
-// Cells of one CSV line; quotes as in RFC 4180, but no line breaks within.
-std::vector<std::string> split_csv(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  return cells;
-}
-
-std::string quoted_cell(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string header() {
   std::string text;
@@ -79,7 +55,7 @@ std::size_t column_index(const std::string& column) {
 }
 
 BenchmarkPair parse_pair(const std::string& path, long at, const std::string& line) {
-  const std::vector<std::string> cells = split_csv(line);
+  const std::vector<std::string> cells = csv_cells(line);
   if (cells.size() != 6)
     throw FileError(path, at, "expected 6 cells, found " + std::to_string(cells.size()));
   const std::string& name = cells[0];
@@ -130,13 +106,13 @@ const std::string& ResultRow::operator[](const std::string& column) const {
 std::string csv_line(const ResultRow& row) {
   std::string text;
   for (std::size_t i = 0; i < row.cells.size(); ++i)
-    text += (i == 0 ? "" : ",") + quoted_cell(row.cells[i]);
+    text += (i == 0 ? "" : ",") + csv_field(row.cells[i]);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
 
 ResultRow parse_result_row(const std::string& line) {
-  std::vector<std::string> cells = split_csv(line);
+  std::vector<std::string> cells = csv_cells(line);
   ResultRow row;
   if (cells.size() != row.cells.size())
     throw InputError("expected " + std::to_string(row.cells.size()) + " cells, found " +

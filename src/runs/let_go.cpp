@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/core/rotation_vector.hpp"
 #include "mortise/metrics/placement.hpp"
 
 namespace mortise {
@@ -63,8 +64,7 @@ LetGoResult let_go(const AssemblySession& session, const TriangleMesh& moving,
     const Eigen::Vector3d turn = options.angle * in_ball();
     if (continues && !continues()) break;
     RigidMotion start = goal;
-    start.rotation = canonical(
-        Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized())) * goal.rotation);
+    start.rotation = canonical(rotation_from_vector(turn) * goal.rotation);
     start.translation =
         goal * centre + options.shift * radius * in_ball() - start.rotation * centre;
     const RigidMotion end = follow(session, start, options.follow).pose;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mortise/core/rotation_vector.hpp"
+
 namespace mortise {
 namespace {
 
@@ -20,10 +22,7 @@ Eigen::Index count_of(const ContactBody& body, double sample_fraction) {
 // The twist about `centre`, then the motion.
 RigidMotion twisted(const RigidMotion& motion, const Vector6& twist, const Eigen::Vector3d& centre,
                     double length) {
-  const Eigen::Vector3d w = twist.tail<3>() / length;
-  const double angle = w.norm();
-  const Eigen::Quaterniond q = angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle))
-                                           : Eigen::Quaterniond::Identity();
+  const Eigen::Quaterniond q = rotation_from_vector(twist.tail<3>() / length);
   return compose({q, centre - q * centre + twist.head<3>()}, motion);
 }
 

@@ -4,30 +4,34 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "mortise/scoring/pose_scorer.hpp"
 #include "mortise/scoring/score_maps.hpp"
 
 namespace mortise {
 
-/// Column "contact": the contact potential of the typed points by the fixed body's maps. The
-/// gradient is that of shape and contact together by the same maps (ScoreMaps::slope), if they have
-/// a shape.
+/// Column "contact": the contact potential of the typed points by the fixed body's maps, linear
+/// between grid points. The gradient is that of shape and contact together, by the same maps'
+/// smooth interpolation (ScoreMaps::smooth_score); it needs maps with a shape and `placed`.
 class MapScorer : public PoseScorer {
  public:
-  MapScorer(std::shared_ptr<const ScoreMaps> maps, PlacedPoints moving)
-      : maps_(std::move(maps)), moving_(std::move(moving)) {}
+  MapScorer(std::shared_ptr<const ScoreMaps> maps, TypedPoints moving,
+            std::optional<PlacedPoints> placed)
+      : maps_(std::move(maps)), moving_(std::move(moving)), placed_(std::move(placed)) {}
 
   [[nodiscard]] std::vector<std::string> columns() const override { return {"contact"}; }
   [[nodiscard]] Eigen::MatrixXd score(const std::vector<RigidMotion>& poses,
                                       int threads) const override;
-  [[nodiscard]] bool has_gradient() const override { return maps_->shapes() > 0; }
+  [[nodiscard]] bool has_gradient() const override { return placed_.has_value(); }
   [[nodiscard]] PlacedScore gradient(const RigidMotion& moving_in_fixed) const override;
-  [[nodiscard]] const PlacedPoints& placed() const { return moving_; }
+  /// The moving body's points for polish; none = maps without a shape.
+  [[nodiscard]] const std::optional<PlacedPoints>& placed() const { return placed_; }
 
  private:
   std::shared_ptr<const ScoreMaps> maps_;
-  PlacedPoints moving_;
+  TypedPoints moving_;
+  std::optional<PlacedPoints> placed_;
 };
 
 }  // namespace mortise

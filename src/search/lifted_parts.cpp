@@ -14,7 +14,7 @@ namespace {
 constexpr double kSeriesShare = 0.3, kSumShare = 0.1;
 // What sums in single precision reach on every grid.
 constexpr double kLeastSumTolerance = 1e-5;
-constexpr double kFixedTolerance = 1e-5;
+constexpr double kFixedPartTolerance = 1e-5;
 
 ConeSeries cone_of(const Knots& knots, const RadialTransform& transform, double k_max,
                    const std::vector<double>& offsets, const ComponentOptions& options) {
@@ -40,7 +40,7 @@ HalfSpectrum field_of(const Knots& knots, const Eigen::VectorXd& weights, const 
   points.bottomRows<3>() = motion * Eigen::Matrix3Xd(knots.points.topRows<3>());
   const auto [nx, ny, nz] = size;
   Nfft4 nfft({cone.modes(), nx, ny, nz}, {cone.period(), nx * spacing, ny * spacing, nz * spacing},
-             {.tolerance = std::min(kFixedTolerance, kSumShare * options.radius_tolerance),
+             {.tolerance = std::min(kFixedPartTolerance, kSumShare * options.radius_tolerance),
               .weights = WeightKind::kReal,
               .expected_points = knots.size(),
               .threads = options.threads});

@@ -25,7 +25,7 @@ namespace {
 constexpr float kLowest = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kMostVisits = 50000;  // cells looked at for summits
 
-int round_up(int n, int multiple) { return (n + multiple - 1) / multiple * multiple; }
+int rounded_up(int n, int multiple) { return (n + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
@@ -37,8 +37,8 @@ const SearchTable& search_loops() {
 
 ScoreBox::ScoreBox(const std::array<int, 3>& size)
     : size_(size),
-      row_(round_up(size[2], 16)),
-      plane_row_(round_up(size[1], 16)),
+      row_(rounded_up(size[2], 16)),
+      plane_row_(rounded_up(size[1], 16)),
       scores_(static_cast<std::size_t>(size[0]) * size[1] * row_, kLowest),
       maxima_(static_cast<std::size_t>(size[0]) * plane_row_, kLowest),
       plane_maxima_(size[0]) {}

@@ -124,15 +124,4 @@ void check_writable(const std::string& path, std::uint64_t bytes) {
                               std::to_string(left) + " left");
 }
 
-std::string read_whole_file(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw FileError(path, "no such file");
-  if (fs::is_directory(path, error)) throw FileError(path, "expected a file, found a directory");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) throw FileError(path, "reading failed");
-  return bytes;
-}
-
 }  // namespace mortise

@@ -11,8 +11,8 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/csv.hpp"
 #include "mortise/store/knots_file.hpp"
-#include "store/csv_text.hpp"
 
 namespace mortise {
 namespace {

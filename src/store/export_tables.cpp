@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/store/csv.hpp"
 #include "mortise/store/export.hpp"
-#include "store/csv_text.hpp"
 
 namespace mortise {
 namespace {

@@ -85,7 +85,7 @@ KnotsFile read_knots_file(const std::string& path) {
 }
 
 StoredKind stored_kind(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw FileError(path, "no such file");
+  if (!std::filesystem::exists(path)) throw FileError(path, "expected a file, found none");
   std::string start(8, '\0');
   std::ifstream(path, std::ios::binary).read(start.data(), 8);
   if (!hdf5::has_signature(start)) return StoredKind::kNotHdf5;

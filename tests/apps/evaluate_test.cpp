@@ -21,7 +21,7 @@ class Evaluate : public testing::Program {
   // Three poses: 40 A off, 7 A off, right. The sample's ligand sits right at the identity.
   Evaluate() {
     run_.provenance = make_provenance("test");
-    run_.provenance.working_directory = scratch_.string();
+    run_.provenance.working_directory = scratch_.path().string();
     run_.fixed.path = run_.fixed.spec = "1hpv_receptor.pdb";
     run_.moving.path = run_.moving.spec = "1hpv_ligand.pdb";
     run_.fixed.sha256 = sha256_of_file(path("1hpv_receptor.pdb"));
@@ -104,7 +104,8 @@ TEST_F(Evaluate, DescribesTheInterfacesOfTheBestPoses) {
 
 TEST_F(Evaluate, NamesEachFaultInOneLine) {
   expect_user_error("evaluate run.h5", "--reference-fixed");
-  expect_user_error(std::string("evaluate none.h5") + kReferences, "none.h5: no such file");
+  expect_user_error(std::string("evaluate none.h5") + kReferences,
+                    "none.h5: expected a file, found none");
   expect_user_error(
       "evaluate run.h5 --reference-fixed none.pdb --reference-moving 1hpv_complex.pdb:B",
       "none.pdb");

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +17,7 @@
 #include <string>
 #include <thread>
 
+#include "helpers/scratch_directory.hpp"
 #include "mortise/store/atomic_file.hpp"
 #include "mortise/store/run_file.hpp"
 
@@ -32,27 +32,18 @@ struct Outcome {
 class Program : public ::testing::Test {
  protected:
   Program() {
-    std::string name = (std::filesystem::temp_directory_path() / "mortise_apps_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no scratch directory");
-    scratch_ = name;
     for (const char* file : {"1hpv_receptor.pdb", "1hpv_ligand.pdb", "1hpv_complex.pdb"})
       std::filesystem::copy_file(std::filesystem::path(MORTISE_SOURCE_DIR) / "molecules" / file,
-                                 scratch_ / file);
-  }
-  ~Program() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(scratch_, ignored);
+                                 path(file));
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (scratch_ / name).string();
-  }
+  [[nodiscard]] std::string path(const std::string& name) const { return scratch_ / name; }
 
   /// Starts the program in the scratch directory; arguments as the shell takes them.
   [[nodiscard]] pid_t start(const std::string& arguments) const {
-    const std::string command = "cd '" + scratch_.string() + "' && exec '" + MORTISE_PROGRAM +
-                                "' " + arguments + " >.stdout 2>.stderr";
-    std::filesystem::remove(scratch_ / ".stdout");
+    const std::string command = "cd '" + scratch_.path().string() + "' && exec '" +
+                                MORTISE_PROGRAM + "' " + arguments + " >.stdout 2>.stderr";
+    std::filesystem::remove(path(".stdout"));
     const pid_t process = ::fork();
     if (process == 0) {
       ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
@@ -105,7 +96,7 @@ class Program : public ::testing::Test {
     return false;
   }
 
-  std::filesystem::path scratch_;
+  ScratchDirectory scratch_;
 };
 
 /// The run's datasets as bytes: all of it but when and how it was made.

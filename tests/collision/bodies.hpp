@@ -9,6 +9,7 @@
 
 #include "mortise/core/knots.hpp"
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/core/rotation_vector.hpp"
 
 namespace mortise::tests {
 
@@ -53,12 +54,7 @@ inline RigidMotion random_pose(const Eigen::Vector3d& fixed_centre,
 /// The pose turned by e (about the moving body's origin, fixed frame) and shifted by d.
 inline RigidMotion nudged(const RigidMotion& pose, const Eigen::Vector3d& d,
                           const Eigen::Vector3d& e) {
-  const double angle = e.norm();
-  RigidMotion result = pose;
-  if (angle > 0.0)
-    result.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, e / angle)) * pose.rotation;
-  result.translation += d;
-  return result;
+  return {rotation_from_vector(e) * pose.rotation, pose.translation + d};
 }
 
 }  // namespace mortise::tests

@@ -11,12 +11,12 @@
 #include <iomanip>
 #include <iostream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "mortise/metrics/reference_complex.hpp"
 #include "mortise/molecules/read_molecule.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise {
 namespace {
@@ -38,13 +38,11 @@ std::vector<Row> read_table(const std::string& path) {
   std::string line;
   std::getline(in, line);  // header
   while (std::getline(in, line)) {
-    std::istringstream cells(line);
+    const std::vector<std::string> cells = csv_cells(line);
     Row row;
-    std::string number;
-    std::getline(cells, row.name, ',');
-    std::getline(cells, number, ',');
-    row.unbound_interface_rmsd = std::stod(number);
-    for (std::string& file : row.files) std::getline(cells, file, ',');
+    row.name = cells.at(0);
+    row.unbound_interface_rmsd = std::stod(cells.at(1));
+    for (std::size_t f = 0; f < 4; ++f) row.files[f] = cells.at(2 + f);
     out.push_back(row);
   }
   return out;

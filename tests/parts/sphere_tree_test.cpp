@@ -14,7 +14,7 @@
 namespace mortise {
 namespace {
 
-Eigen::Matrix4Xd random_balls(int count, unsigned seed) {
+Eigen::Matrix4Xd small_balls(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-1.0, 1.0), radius(0.0, 0.1);
   Eigen::Matrix4Xd balls(4, count);
@@ -51,7 +51,7 @@ TEST(SphereTree, EveryBallLiesInItsParentForAllSizesAndArities) {
   for (const int count : {1, 2, 3, 4, 5, 17, 64, 65, 1000})
     for (const int arity : {2, 3, 4, 8, 64}) {
       SCOPED_TRACE(std::to_string(count) + " balls, arity " + std::to_string(arity));
-      const Eigen::Matrix4Xd balls = random_balls(count, 3);
+      const Eigen::Matrix4Xd balls = small_balls(count, 3);
       const SphereTree tree = sphere_tree(balls, {.arity = arity});
       EXPECT_NO_THROW(check_sphere_tree(tree, count, "test"));
       for (int i = 0; i < tree.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(SphereTree, EveryBallLiesInItsParentForAllSizesAndArities) {
 }
 
 TEST(SphereTree, ParentsAreTheSmallestBallsAroundTheirChildren) {
-  const SphereTree tree = sphere_tree(random_balls(300, 5), {.arity = 6});
+  const SphereTree tree = sphere_tree(small_balls(300, 5), {.arity = 6});
   for (int i = 0; i < tree.size(); ++i) {
     if (tree.children[i] == 0) continue;
     const Eigen::Matrix4Xd children = tree.balls.middleCols(tree.first_child[i], tree.children[i]);
@@ -81,7 +81,7 @@ TEST(SphereTree, ParentsAreTheSmallestBallsAroundTheirChildren) {
 }
 
 TEST(SphereTree, AreNotMuchLargerThanTheBallsUnderThem) {
-  const Eigen::Matrix4Xd balls = random_balls(2000, 7);
+  const Eigen::Matrix4Xd balls = small_balls(2000, 7);
   for (const int arity : {2, 4, 8}) {
     const SphereTree tree = sphere_tree(balls, {.arity = arity});
     double worst = 1.0;
@@ -98,9 +98,9 @@ TEST(SphereTree, AreNotMuchLargerThanTheBallsUnderThem) {
 }
 
 TEST(SphereTree, DistanceIsThatOfTheNearestBallOfAll) {
-  const Eigen::Matrix4Xd balls = random_balls(777, 11);
+  const Eigen::Matrix4Xd balls = small_balls(777, 11);
   const SphereTree tree = sphere_tree(balls);
-  Eigen::Matrix3Xd points = random_balls(2000, 13).topRows<3>() * 1.3;
+  Eigen::Matrix3Xd points = small_balls(2000, 13).topRows<3>() * 1.3;
   const Eigen::VectorXd found = distance_to_union(tree, points, 2);
   int inside = 0;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -114,7 +114,7 @@ TEST(SphereTree, DistanceIsThatOfTheNearestBallOfAll) {
 }
 
 TEST(SphereTree, RefusesWhatIsNoTree) {
-  const Eigen::Matrix4Xd balls = random_balls(20, 17);
+  const Eigen::Matrix4Xd balls = small_balls(20, 17);
   EXPECT_THROW((void)sphere_tree(Eigen::Matrix4Xd(4, 0)), InputError);
   EXPECT_THROW((void)sphere_tree(balls, {.arity = 1}), InputError);
   Eigen::Matrix4Xd bad = balls;

@@ -19,7 +19,7 @@ std::vector<double> sizes_of(const Run& run) {
 }
 
 // Three poses near each other, one far away, one near the first again.
-Run five_poses(const ReportBodies& bodies) {
+Run five_clusters(const ReportBodies& bodies) {
   mortise::Run run = report_run(bodies, 5);
   const double x[] = {0.0, 1.0, 2.0, 40.0, 0.5};
   for (std::size_t i = 0; i < 5; ++i) {
@@ -32,7 +32,7 @@ Run five_poses(const ReportBodies& bodies) {
 TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
   const ReportBodies bodies = protease();
   const mortise::Run shown =
-      prepare_report(five_poses(bodies), bodies, {.clusters = {.radius = 1.2}}).run;
+      prepare_report(five_clusters(bodies), bodies, {.clusters = {.radius = 1.2}}).run;
   EXPECT_THAT(sizes_of(shown), ElementsAre(3, 3, 1, 1, 3));
   EXPECT_EQ(shown.poses.poses[4].cluster, 0);
   EXPECT_EQ(shown.poses.poses[3].cluster, 2);
@@ -40,7 +40,7 @@ TEST(PrepareReport, ClustersByTheRadiusAndCountsThem) {
 
 TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
   const ReportBodies bodies = protease();
-  mortise::Run run = five_poses(bodies);
+  mortise::Run run = five_clusters(bodies);
   EXPECT_THAT(sizes_of(prepare_report(run, bodies, {.clusters = {.radius = 0.0}}).run), Each(1.0));
   // All alone: clustered anew with a tenth of the diameter, about 5 angstrom.
   EXPECT_THAT(sizes_of(prepare_report(run, bodies).run), ElementsAre(4, 4, 4, 1, 4));
@@ -50,7 +50,7 @@ TEST(PrepareReport, KeepsTheRunsOwnClustersWhereItHasSome) {
 
 TEST(PrepareReport, ReplacesAnEarlierCount) {
   const ReportBodies bodies = protease();
-  const mortise::Run once = prepare_report(five_poses(bodies), bodies).run;
+  const mortise::Run once = prepare_report(five_clusters(bodies), bodies).run;
   const mortise::Run twice = prepare_report(once, bodies).run;
   EXPECT_EQ(twice.metrics.size(), once.metrics.size());
 }

@@ -10,6 +10,7 @@
 
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/rotation_vector.hpp"
 #include "mortise/metrics/placement.hpp"
 #include "mortise/parts/diameter.hpp"
 #include "mortise/parts/mesh_solid.hpp"
@@ -89,10 +90,7 @@ TEST(ContactEnergy, GradientMeetsCentralDifferences) {
       const auto at = [&](double h) {
         Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
         twist[d] = h;
-        const Eigen::Vector3d w = twist.tail<3>() / length;
-        const Eigen::Quaterniond q =
-            w.norm() > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(w.norm(), w.normalized()))
-                         : Eigen::Quaterniond::Identity();
+        const Eigen::Quaterniond q = rotation_from_vector(twist.tail<3>() / length);
         return pair
             .energy(compose({q, centre - q * centre + twist.head<3>()}, pose), 0.4, 1.5, 1.0,
                     centre, length)

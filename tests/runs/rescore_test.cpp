@@ -14,7 +14,7 @@ namespace {
 const std::string kFixed = MORTISE_SOURCE_DIR "/molecules/1hpv_receptor.pdb";
 const std::string kMoving = MORTISE_SOURCE_DIR "/molecules/1hpv_ligand.pdb";
 
-DockOptions quick() {
+DockOptions quick_docking() {
   DockOptions options;
   options.rotations = 60;
   options.poses = 40;
@@ -38,7 +38,7 @@ void expect_same_poses(const PoseList& a, const PoseList& b) {
 
 TEST(Rescore, TheSameOptionsGiveTheSamePosesAndOthersThoseOfTheirOwnRun) {
   const Body fixed = read_body(kFixed), moving = read_body(kMoving);
-  const DockOptions options = quick();
+  const DockOptions options = quick_docking();
   const mortise::Run run = dock(fixed, moving, options);
   ASSERT_TRUE(run.complete);
   ASSERT_EQ(run.candidates.size(), 240U);
@@ -66,7 +66,7 @@ TEST(Rescore, TakesStagesOfOnesOwn) {
       return result;
     }
   };
-  DockOptions options = quick();
+  DockOptions options = quick_docking();
   options.random_start.reset();
   options.polish = false;
   const mortise::Run run = dock(read_body(kFixed), read_body(kMoving), options);
@@ -88,7 +88,7 @@ TEST(Rescore, TakesStagesOfOnesOwn) {
 }
 
 TEST(Rescore, RefusesWhatWasNotSearched) {
-  DockOptions options = quick();
+  DockOptions options = quick_docking();
   mortise::Run run = dock(read_body(kFixed), read_body(kMoving), options);
   DockOptions other = options;
   other.rotations = 120;

@@ -23,9 +23,9 @@ namespace {
 using namespace sample_bodies;
 
 constexpr DoubleSkinOptions kSkin{.offset = 1.4, .penalty = 7.0};
-const std::vector<double> kRadii = {1.42, 1.61, 1.77, 1.88, 2.6, 3.4};
+const std::vector<double> kBallRadii = {1.42, 1.61, 1.77, 1.88, 2.6, 3.4};
 
-Knots grown(Knots knots, double offset) {
+Knots enlarged(Knots knots, double offset) {
   knots.points.row(3).array() += offset;
   return knots;
 }
@@ -50,8 +50,8 @@ double relative(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 class ShapeScores : public testing::Test {
  protected:
   std::mt19937 random{3};
-  Knots fixed = ellipsoid(random, 120, {13, 8, 6}, {1, 2, 3}, kRadii);
-  Knots moving = ellipsoid(random, 50, {6, 4, 5}, {0, 0, 0}, kRadii);
+  Knots fixed = ellipsoid(random, 120, {13, 8, 6}, {1, 2, 3}, kBallRadii);
+  Knots moving = ellipsoid(random, 50, {6, 4, 5}, {0, 0, 0}, kBallRadii);
   Channel channel = double_skin_channel(fixed, moving, kSkin);
   std::vector<RigidMotion> poses = touching_poses(random, 30);
   std::vector<double> offsets = {0.0, -0.4, 0.5, 1.4};
@@ -62,7 +62,7 @@ TEST_F(ShapeScores, ExactOnesAreTheCommonVolumesOfTheGrownSkins) {
   for (std::size_t o = 0; o < offsets.size(); ++o) {
     Eigen::VectorXd expected(poses.size());
     for (std::size_t p = 0; p < poses.size(); ++p)
-      expected[p] = reference::double_skin_score(fixed, grown(moving, offsets[o]), poses[p],
+      expected[p] = reference::double_skin_score(fixed, enlarged(moving, offsets[o]), poses[p],
                                                  kSkin.offset, kSkin.penalty);
     // The tables; sums cancel to some extent.
     EXPECT_LT(relative(scores.row(o).transpose(), expected), 3e-5) << offsets[o];
@@ -155,7 +155,7 @@ TEST_F(ShapeScores, TruncationBoundsTheSearchsErrorAtEveryCandidate) {
           score_truncation(c, found, scores, {.low_pass = {.cutoff = 0.25}, .offsets = {offset}});
       double closest = 0.0;
       for (std::size_t p = 0; p < found.size(); ++p) {
-        const double exact = reference::double_skin_score(f, grown(m, offset), found[p],
+        const double exact = reference::double_skin_score(f, enlarged(m, offset), found[p],
                                                           kSkin.offset, kSkin.penalty);
         const double error = std::abs(scores[p] - exact),
                      bound = parts[p].low_pass + parts[p].spread;

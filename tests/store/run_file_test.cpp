@@ -189,7 +189,7 @@ TEST(RunFile, RefusesRunsThatDoNotAgreeWithThemselves) {
 
 TEST(RunFile, SaysWhatIsWrongWithAFile) {
   const ScratchDirectory scratch;
-  EXPECT_THAT(read_error(scratch / "none.h5"), HasSubstr("no such file"));
+  EXPECT_THAT(read_error(scratch / "none.h5"), HasSubstr("found none"));
   EXPECT_THAT(read_error(scratch.path().string()), HasSubstr("found a directory"));
   put(scratch / "empty.h5", "");
   EXPECT_THAT(read_error(scratch / "empty.h5"), HasSubstr("found an empty file"));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small run made by hand, and a directory of its own for each test's files.
+// A small run made by hand.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -11,31 +10,10 @@
 #include <random>
 #include <string>
 
+#include "helpers/scratch_directory.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise::testing {
-
-/// A fresh directory, removed with all in it at the end.
-class ScratchDirectory {
- public:
-  ScratchDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mortise-test-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (path_ / name).string();
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline Eigen::Quaterniond random_rotation(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -64,7 +42,7 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
                     7,       "2026-01-31T12:00:00Z",     "bench"};
   run.complete = true;
   run.seconds = 12.5;
-  run.figures = {{"seconds_search", 1.07}, {"best_score", 321.0}, {"a_third", -1e-300}};
+  run.figures = {{"fft_ratio", 1.07}, {"best_score", 321.0}, {"a_third", -1e-300}};
   run.fixed = {"a.pdb",
                "a.pdb:A",
                std::string(64, 'a'),

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "mortise/core/read_file.hpp"  // IWYU pragma: export
+
 namespace mortise {
 
 /// Writes `bytes` to `path` in one step: a hidden file beside it, fsync, rename, fsync of the
@@ -21,8 +23,5 @@ void write_file_atomically(const std::string& path, std::string_view bytes);
 /// Throws FileError unless write_file_atomically(path) could write `bytes` now. Call it before a
 /// long computation.
 void check_writable(const std::string& path, std::uint64_t bytes = 1 << 20);
-
-/// The whole file. @throws FileError if it is missing, a directory or unreadable
-[[nodiscard]] std::string read_whole_file(const std::string& path);
 
 }  // namespace mortise

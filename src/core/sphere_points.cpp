@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The Fibonacci lattice on the sphere.
-#include "molecules/sphere_points.hpp"
+#include "core/sphere_points.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace mortise::molecules {
+namespace mortise::detail {
 
 Eigen::Matrix3Xd fibonacci_sphere(int count) {
   Eigen::Matrix3Xd points(3, count);
@@ -18,4 +18,4 @@ Eigen::Matrix3Xd fibonacci_sphere(int count) {
   return points;
 }
 
-}  // namespace mortise::molecules
+}  // namespace mortise::detail
