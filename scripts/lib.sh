@@ -89,14 +89,19 @@ step() {
   printf '%4d s\n' $((SECONDS - start)) >&2
 }
 
-# build PRESET [CMAKE BUILD OPTION...]: configures and builds; with ccache if it is there.
+# build PRESET [CMAKE BUILD OPTION...]: configures and builds; with ccache if it is there. Sources are joined unless the
+# folder was configured otherwise, as by a developer, who compiles single files again and again.
 build() {
   local preset=$1 options=()
   shift
   if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   # A checkout that was moved: CMake refuses the old cache.
   local cache=build/$preset/CMakeCache.txt
-  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$(pwd -P)" "$cache"; then options+=(--fresh); fi
+  if [ ! -f "$cache" ]; then
+    options+=(-DMORTISE_JOINED=ON)
+  elif ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$(pwd -P)" "$cache"; then
+    options+=(--fresh -DMORTISE_JOINED=ON)
+  fi
   cmake --preset "$preset" "${options[@]}"
   cmake --build --preset "$preset" -j "$jobs" "$@"
 }
