@@ -8,6 +8,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
+#include "scoring/by_place.hpp"
 
 namespace mortise {
 namespace {
@@ -101,11 +102,12 @@ std::vector<PolishedPose> polish_poses(const PoseObjective& objective, const Pol
                                        const PolishOptions& options) {
   check(body, options);
   std::vector<PolishedPose> result(poses.size());
+  const std::vector<std::size_t> order = detail::by_place(poses, body.centre);
   constexpr std::size_t kPiece = 16;
   parallel_for((poses.size() + kPiece - 1) / kPiece, options.threads, [&](std::size_t piece, int) {
     const std::size_t end = std::min(poses.size(), (piece + 1) * kPiece);
     for (std::size_t i = piece * kPiece; i < end; ++i)
-      result[i] = polish(objective, body, poses[i], options);
+      result[order[i]] = polish(objective, body, poses[order[i]], options);
   });
   return result;
 }

@@ -51,18 +51,19 @@ std::shared_ptr<const MapScorer> map_scorer(const Body& fixed, const Body& movin
   const ScoreMapsOptions map_options{.threads = options.threads};
   if (!options.polish)
     return std::make_shared<MapScorer>(
-        std::make_shared<ScoreMaps>(fixed_points, potential, map_options), moving_points,
-        std::nullopt);
+        std::make_shared<ScoreMaps>(fixed_points, potential, map_options),
+        PlacedPoints(moving_points));
   const TabulatedKernel kernel =
       shape_kernel(shape, options.radius, options.radius, {.cutoff = options.search.cutoff});
   // The channel's weights are i w, so that a pair counts -w w'.
   const Knots& knots = plan.fixed.knots;
-  auto maps =
-      std::make_shared<ScoreMaps>(fixed_points, potential, knots.points.topRows<3>(),
-                                  -potential.shape * knots.weights.real(), kernel, map_options);
+  auto maps = std::make_shared<ScoreMaps>(
+      fixed_points, potential,
+      shape_terms(knots.points.topRows<3>(), -potential.shape * knots.weights.real(), kernel),
+      map_options);
   PlacedPoints placed(moving_points, plan.moving.knots.points.topRows<3>(),
-                      plan.moving.knots.weights.real());
-  return std::make_shared<MapScorer>(std::move(maps), std::move(moving_points), std::move(placed));
+                      plan.moving.knots.weights.real().transpose());
+  return std::make_shared<MapScorer>(std::move(maps), std::move(placed));
 }
 
 // Moves poses and leaves them the scores by which they were found: ranking by the score at the end
@@ -135,10 +136,7 @@ SearchPlan plan_dock(const Body& receptor, const Body& ligand, const DockOptions
   }
   const std::shared_ptr<const MapScorer> scorer =
       map_scorer(receptor, moving, plan.channels.front(), plan, potential, options);
-  const PolishBody body = options.polish
-                              ? PolishBody{scorer->placed()->centre, scorer->placed()->gyration}
-                              : PolishBody{};
-  plan.stages = stages_of(scorer, body, options);
+  plan.stages = stages_of(scorer, {scorer->placed().centre, scorer->placed().gyration}, options);
   return plan;
 }
 

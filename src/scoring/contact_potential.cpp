@@ -10,8 +10,12 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/read_file.hpp"
 #include "mortise/molecules/contact_types.hpp"
+#include "scoring/contact_steps.hpp"
 
 namespace mortise {
+
+static_assert(kContactRange == double{kFarEnd});
+
 namespace {
 
 // Reads lines that hold something, counting all.
@@ -65,10 +69,13 @@ Eigen::MatrixXd read_matrix(Lines& lines, const std::string& word, int types) {
 
 }  // namespace
 
-double near_contact(double d) { return std::clamp(0.5 * (7.0 - d), 0.0, 1.0); }
+double near_contact(double d) {
+  return std::clamp((double{kNearEnd} - d) / double{kContactStep}, 0.0, 1.0);
+}
 
 double far_contact(double d) {
-  return std::clamp(std::min(0.5 * (d - 5.0), kContactRange - d), 0.0, 1.0);
+  return std::clamp(std::min((d - double{kFarStart}) / double{kContactStep}, kContactRange - d),
+                    0.0, 1.0);
 }
 
 ContactPotential parse_contact_potential(const std::string& text, int types,

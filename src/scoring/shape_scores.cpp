@@ -129,7 +129,7 @@ class FieldMaps {
   [[nodiscard]] int per_part() const { return per_part_; }
   [[nodiscard]] int count() const { return count_; }
 
-  // Cubics that agree with the map at nodes and have continuous slopes (Keys, as in ScoreMaps).
+  // Cubics that agree with the map at nodes and have continuous slopes (Keys).
   // False where there is nothing; `out` has count() values.
   bool at(const Eigen::Vector3d& point, float* out) const {
     std::array<int, 3> cell;

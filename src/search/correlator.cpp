@@ -57,22 +57,13 @@ Correlator::Correlator(const std::array<int, 3>& size, double spacing, double mo
   corner_[2] = size[2];  // rows are transformed whole
   const int nx = size[0], ny = size[1], nz = size[2], nc = nz / 2 + 1;
   columns_ = round_up(nc, 8);
-  const int row = ScoreBox(size).row();
-  const Spreader<3, float> spreader(corner_, corner_box(corner_, spacing), kernel_,
-                                    WeightKind::kReal);
-  using Fft = FftPlan<float>;
   const std::ptrdiff_t c = columns_;
   // An odd number of cache lines, so that a line across all planes does not fall into few cache
   // sets.
   plane_ = (c * ny / 8 | 1) * 8;
-  const std::ptrdiff_t plane = plane_;
-  forward_z_ = Fft::real_to_complex({{{nz, 1, 1}}, {{corner_[1], spreader.stride(1), c}}}, false);
-  forward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, true, false);
-  forward_x_ = Fft::complex_to_complex({{{nx, plane, c}}, {{nc, 1, 1}}}, true, false);
-  backward_x_ = Fft::complex_to_complex({{{nx, c, plane}}, {{nc, 1, 1}}}, false, false);
-  // Out of place: in place, the plan that ESTIMATE finds is up to 4 times slower (40 x 40 x 40).
-  backward_y_ = Fft::complex_to_complex({{{ny, c, c}}, {{nc, 1, 1}}}, false, false);
-  backward_z_ = Fft::complex_to_real({{{nz, 1, 1}}, {{ny, c, row}}}, false);
+  fft_x_ = LaneFft(nx);
+  fft_y_ = LaneFft(ny);
+  fft_z_ = LaneFft(nz);
   fixed_.resize(static_cast<std::size_t>(components) * offsets * ny * nx * columns_);
 }
 
@@ -89,6 +80,9 @@ Correlator::Workspace::Workspace(const Correlator& plan)
   sum.resize(plan.offsets_ * tile.size());
   product.resize(plan.offsets_ * nx * plane);
   slab.resize(plane);
+  fft_work_x = plan.fft_x_.make_work();
+  fft_work_y = plan.fft_y_.make_work();
+  fft_work_z = plan.fft_z_.make_work();
 }
 
 void Correlator::set_fixed(
@@ -134,8 +128,10 @@ void Correlator::spread(const Eigen::VectorXf& weights, Workspace& w) const {
 void Correlator::forward_zy(int component, Workspace& w) const {
   std::complex<float>* const planes = w.planes.data() + component * size_[0] * plane_;
   for (int i = 0; i < corner_[0]; ++i) {
-    forward_z_.run(w.corner.data() + i * w.spreader.stride(0), w.lines.data());
-    forward_y_.run(w.lines.data(), planes + i * plane_);
+    fft_z_.forward_rows(w.corner.data() + i * w.spreader.stride(0), w.spreader.stride(1),
+                        corner_[1], w.lines.data(), columns_, w.fft_work_z);
+    fft_y_.run(true, w.lines.data(), columns_, corner_[1], planes + i * plane_, columns_, columns_,
+               w.fft_work_y);
   }
 }
 
@@ -144,7 +140,8 @@ void Correlator::multiply(Workspace& w) const {
   const std::ptrdiff_t c = columns_, tile = c * nx;
   for (int j = 0; j < ny; ++j) {
     for (int p = 0; p < components_; ++p) {
-      forward_x_.run(w.planes.data() + p * nx * plane_ + j * c, w.tile.data());
+      fft_x_.run(true, w.planes.data() + p * nx * plane_ + j * c, plane_, corner_[0], w.tile.data(),
+                 c, c, w.fft_work_x);
       for (int o = 0; o < offsets_; ++o)
         search_loops().multiply_conjugate(
             reinterpret_cast<const float*>(fixed_.data() + ((p * offsets_ + o) * ny + j) * tile),
@@ -152,15 +149,18 @@ void Correlator::multiply(Workspace& w) const {
             reinterpret_cast<float*>(w.sum.data() + o * tile));
     }
     for (int o = 0; o < offsets_; ++o)
-      backward_x_.run(w.sum.data() + o * tile, w.product.data() + o * nx * plane_ + j * c);
+      fft_x_.run(false, w.sum.data() + o * tile, c, nx, w.product.data() + o * nx * plane_ + j * c,
+                 plane_, c, w.fft_work_x);
   }
 }
 
 void Correlator::backward_yz(int offset, Workspace& w) const {
   const std::complex<float>* const product = w.product.data() + offset * size_[0] * plane_;
   for (int i = 0; i < size_[0]; ++i) {
-    backward_y_.run(product + i * plane_, w.slab.data());
-    backward_z_.run(w.slab.data(), w.box.plane(i));
+    fft_y_.run(false, product + i * plane_, columns_, size_[1], w.slab.data(), columns_, columns_,
+               w.fft_work_y);
+    fft_z_.backward_rows(w.slab.data(), columns_, size_[1], w.box.plane(i), w.box.row(),
+                         w.fft_work_z);
     w.box.plane_written(i);
   }
 }

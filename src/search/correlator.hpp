@@ -11,8 +11,8 @@
 #include <functional>
 #include <vector>
 
+#include "fourier/lane_fft.hpp"
 #include "mortise/fourier/aligned.hpp"
-#include "mortise/fourier/fft_plan.hpp"
 #include "mortise/fourier/spreader.hpp"
 #include "search/score_box.hpp"
 
@@ -43,13 +43,14 @@ class Correlator {
     Eigen::Matrix3Xd points;      // rotated, in the corner's coordinates
     AlignedVector<float> corner;  // moving body, real space
     AlignedVector<std::complex<float>>
-        lines;  // one x-plane after the z transform; rows past the corner stay 0
+        lines;  // one x-plane after the z transform; rows past the corner are not read
     AlignedVector<std::complex<float>>
-        planes;  // P x nx x ny x nc: after z and y; planes past the corner stay 0
+        planes;  // P x nx x ny x nc: after z and y; planes past the corner are not read
     AlignedVector<std::complex<float>> tile, sum,
         product;                              // nx x nc, O x nx x nc, O x nx x ny x nc
     AlignedVector<std::complex<float>> slab;  // ny x nc: one x-plane between the y and z transforms
     ScoreBox box;                             // of the offset last finished
+    LaneFft::Work fft_work_x, fft_work_y, fft_work_z;
   };
 
   /// Sets component p's spectrum for one offset: value(kx, ky, kz) at integer frequencies, kz = 0
@@ -89,7 +90,7 @@ class Correlator {
   int components_, offsets_, columns_;  // columns_: complex numbers per padded row
   std::ptrdiff_t plane_;                // complex numbers per padded plane of y and z
   SpreadKernel kernel_;
-  FftPlan<float> forward_z_, forward_y_, forward_x_, backward_x_, backward_y_, backward_z_;
+  LaneFft fft_x_, fft_y_, fft_z_;
   AlignedVector<std::complex<float>> fixed_;  // P x O x ny x nx x columns_
 };
 

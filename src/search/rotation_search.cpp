@@ -260,27 +260,4 @@ Eigen::Vector3d RotationSearch::translation_of(int i, int j, int k) const {
       {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
 }
 
-double bare_fft_seconds(const std::array<int, 3>& grid_size) {
-  const auto [nx, ny, nz] = grid_size;
-  const std::ptrdiff_t nc = nz / 2 + 1;
-  // Both arrays contiguous, as FFTW's own simple interface has them.
-  const auto forward = FftPlan<float>::real_to_complex(
-      {{{nx, std::ptrdiff_t{ny} * nz, ny * nc}, {ny, nz, nc}, {nz, 1, 1}}, {}}, false,
-      PlanRigor::kMeasure);
-  const auto backward = FftPlan<float>::complex_to_real(
-      {{{nx, ny * nc, std::ptrdiff_t{ny} * nz}, {ny, nc, nz}, {nz, 1, 1}}, {}}, false,
-      PlanRigor::kMeasure);
-  AlignedVector<float> real(static_cast<std::size_t>(nx) * ny * nz, 0.0F);
-  AlignedVector<std::complex<float>> half(static_cast<std::size_t>(nx) * ny * nc);
-  double best = std::numeric_limits<double>::infinity();
-  const auto begin = Clock::now();
-  for (int i = 0; i < 200 && (i < 5 || Clock::now() - begin < std::chrono::milliseconds(60)); ++i) {
-    const auto start = Clock::now();
-    forward.run(real.data(), half.data());
-    backward.run(half.data(), real.data());
-    best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  return best;
-}
-
 }  // namespace mortise

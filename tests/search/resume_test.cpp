@@ -195,13 +195,6 @@ TEST_F(RotationLoop, AnInfiniteSeparationKeepsOneTranslation) {
   EXPECT_EQ(all().size(), 300U);
 }
 
-TEST(BareFft, TakesTimeAndStaysInItsArrays) {
-  // Overruns show under the address sanitizer or corrupt the heap; sizes that differ on each axis.
-  const double small = bare_fft_seconds({16, 12, 20}), large = bare_fft_seconds({48, 40, 60});
-  EXPECT_GT(small, 0.0);
-  EXPECT_GT(large, 4.0 * small);  // 30 times the points
-}
-
 TEST_F(RotationLoop, SmallestBodiesAndGrids) {
   Knots point{Eigen::Matrix4Xd(4, 1), Eigen::VectorXcd::Constant(1, 1.0)};
   point.points << 100.0, -200.0, 300.0, 1.0;

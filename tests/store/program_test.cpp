@@ -152,7 +152,7 @@ TEST_F(Program, InfoShowsRunsKnotsAndStructures) {
   EXPECT_EQ(run.code, 0) << run.error;
   EXPECT_THAT(run.out, AllOf(HasSubstr("run.h5: dock run, complete"), HasSubstr("49 of 50 done"),
                              HasSubstr("receptor.pdb"), HasSubstr("shape, electrostatics"),
-                             HasSubstr("fft_ratio")));
+                             HasSubstr("seconds_search")));
   const nlohmann::json all = nlohmann::json::parse(mortise("info run.h5 --json").out);
   EXPECT_EQ(all["poses"]["count"], 12);
   EXPECT_EQ(all["provenance"]["options"]["spacing"], 2.0);

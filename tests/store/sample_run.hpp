@@ -42,7 +42,7 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
                     7,       "2026-01-31T12:00:00Z",     "bench"};
   run.complete = true;
   run.seconds = 12.5;
-  run.figures = {{"fft_ratio", 1.07}, {"best_score", 321.0}, {"a_third", -1e-300}};
+  run.figures = {{"seconds_search", 1.07}, {"best_score", 321.0}, {"a_third", -1e-300}};
   run.fixed = {"a.pdb",
                "a.pdb:A",
                std::string(64, 'a'),

@@ -27,26 +27,53 @@ struct ScoreMapsOptions {
   int threads = 0;       ///< 0 = all cores; never changes the result
 };
 
-/// A moving body as ScoreMaps::smooth_score reads it: one entry per point, the typed ones first.
-struct PlacedPoints {
-  /// @param shape  3 x N centres of the knots and their N weights; may share places with `typed`,
-  /// which then become one entry
-  /// @throws InputError if counts do not agree or there is no point
-  PlacedPoints(const TypedPoints& typed, const Eigen::Matrix3Xd& shape_points,
-               const Eigen::VectorXd& shape_weights);
+/// What the shape score of a fixed body is made of: Q terms, each a sum over knots of weights times
+/// a kernel that depends on the knot's radius. One radius: one term with one kernel.
+struct ShapeTerms {
+  Eigen::Matrix3Xd points;    ///< 3 x N knots, the body's input frame
+  Eigen::VectorXd weights;    ///< N
+  Eigen::VectorXi kernel_of;  ///< N: which kernel of each term is the knot's
+  std::vector<std::vector<TabulatedKernel>> kernels;  ///< Q terms, all of one range
+};
 
-  Eigen::Vector3d centre;   ///< mean of the shape's points, the body's input frame
-  double gyration;          ///< their rms distance from it, angstrom; 1 if less
-  Eigen::VectorXd x, y, z;  ///< entries' places from the centre, angstrom
-  Eigen::VectorXi types;    ///< -1 = none
-  Eigen::VectorXd weights;  ///< of the shape term; 0 = none
+/// One term for knots of one radius.
+[[nodiscard]] ShapeTerms shape_terms(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
+                                     const TabulatedKernel& kernel);
+
+/// A moving body as ScoreMaps reads it.
+struct PlacedPoints {
+  /// Typed points alone, for maps without a shape. Those without a type are left out.
+  /// @throws InputError if counts do not agree or a coordinate is not finite
+  explicit PlacedPoints(const TypedPoints& typed);
+
+  /// @param shape_points   3 x N centres of the knots; may share places with `typed`, which then
+  /// become one
+  /// @param knot_weights  Q x N: of the knots in each of the fixed body's terms
+  /// @throws InputError as above, or if there is no knot
+  PlacedPoints(const TypedPoints& typed, const Eigen::Matrix3Xd& shape_points,
+               const Eigen::MatrixXd& knot_weights);
+
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the shape's points, else of the
+                                                     ///< typed ones; the body's input frame
+  double gyration = 1.0;                             ///< rms distance from it, angstrom; 1 if less
+  int largest_type = -1;                             ///< of the points
+
+  /// Points in groups of 16 near each other, the last one filled up with what has no weight.
+  Eigen::Matrix<float, Eigen::Dynamic, 3> places;  ///< from the centre, angstrom
+  Eigen::VectorXi types;                           ///< 0 where there is none
+  Eigen::VectorXf contact_weights;                 ///< 1, or 0 = no type
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic> shape_weights;  ///< points x Q
+  Eigen::Matrix<float, Eigen::Dynamic, 4> groups;  ///< balls around the groups, filled up to 16
 };
 
 /// For each type the potential that the fixed body's points make, on a grid around it, and the
 /// shape score's, if asked for.
 ///
-/// Interpolation errs by at most about spacing^2 / 8 times the kernels' curvature, which is
-/// concentrated in their corners; at 1 angstrom a pose's score errs by about 2% (docs/math.md).
+/// Between grid points it is linear along each axis, which errs by at most about spacing^2 / 8
+/// times the kernels' curvature, concentrated in their corners: at 1 angstrom a pose's score errs
+/// by about 2% (docs/math.md). Values are kept to 8 bits after the first, which adds a fiftieth of
+/// that. The grid is stored only where something is, in bricks of 4 x 4 x 4 points that share their
+/// faces, so that what a point reads of a map lies in 128 bytes.
 class ScoreMaps {
  public:
   /// @throws InputError if a type is not below the potential's, a size does not fit, or an option
@@ -54,47 +81,49 @@ class ScoreMaps {
   ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential,
             const ScoreMapsOptions& options = {});
 
-  /// With a map for the shape score, sum_i w_i kernel(|x - x_i|) of these knots.
-  /// @throws InputError as above, or if points and weights do not agree
-  ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential,
-            const Eigen::Matrix3Xd& shape_points, const Eigen::VectorXd& shape_weights,
-            const TabulatedKernel& shape_kernel, const ScoreMapsOptions& options = {});
+  /// With a map for each term of the shape score.
+  /// @throws InputError as above, or if the shape's counts do not agree
+  ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential, const ShapeTerms& shape,
+            const ScoreMapsOptions& options = {});
 
   /// sum_ij near K1 + far K2 over fixed points i and moved points j; without the shape term.
-  /// Interpolated linearly in each axis. Time O(moving points within range). Thread safe.
-  [[nodiscard]] double score(const TypedPoints& moving, const RigidMotion& moving_in_fixed) const;
+  /// Thread safe.
+  /// @throws InputError if a type is not one of the potential's
+  [[nodiscard]] double contact_score(const PlacedPoints& moving,
+                                     const RigidMotion& moving_in_fixed) const;
+  /// Of many poses, gone through by place, which is faster: what they read is then near by.
+  /// @param threads  0 = all cores; never changes the result
+  [[nodiscard]] Eigen::VectorXd contact_scores(const PlacedPoints& moving,
+                                               const std::vector<RigidMotion>& poses,
+                                               int threads = 0) const;
 
-  /// Shape and contact terms together, interpolated by cubics that agree with the maps at grid
-  /// points and have continuous slopes [R. G. Keys, IEEE Trans. ASSP 29 (1981) 1153-1160], and the
-  /// exact derivatives of that. Thread safe.
-  /// @throws InputError if there is no map for the shape or a type is not one of the potential's
-  [[nodiscard]] PlacedScore smooth_score(const PlacedPoints& moving,
-                                         const RigidMotion& moving_in_fixed) const;
+  /// Shape and contact terms together, and the exact derivatives of that, which jump where a point
+  /// goes from cell to cell. Thread safe.
+  /// @throws InputError if the terms of the shape are not as many, or as above
+  [[nodiscard]] PlacedScore slope(const PlacedPoints& moving,
+                                  const RigidMotion& moving_in_fixed) const;
 
-  /// The two terms of smooth_score's value: shape, contact.
-  [[nodiscard]] std::array<double, 2> smooth_terms(const PlacedPoints& moving,
-                                                   const RigidMotion& moving_in_fixed) const;
+  /// The two terms of slope's value: shape, contact.
+  [[nodiscard]] std::array<double, 2> terms(const PlacedPoints& moving,
+                                            const RigidMotion& moving_in_fixed) const;
+
+  /// Maps of the shape; 0 = slope() cannot be asked.
+  [[nodiscard]] int shapes() const noexcept { return shapes_; }
+  /// Bytes of the maps.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
-  [[nodiscard]] PlacedScore smooth(const PlacedPoints& moving, const RigidMotion& moving_in_fixed,
-                                   double contact, double shape) const;
+  ScoreMaps(const TypedPoints& fixed, const ContactPotential& potential, const ShapeTerms* shape,
+            const ScoreMapsOptions& options);
   void lay_out(const Eigen::Matrix3Xd& points, double margin);
-  [[nodiscard]] std::size_t cells() const;
-  template <class Visit>
-  void visit_plane(std::size_t i, const Eigen::Vector3d& point, double range,
-                   const Visit& visit) const;
-  void fill_contacts(const TypedPoints& fixed, const ContactPotential& potential, int threads);
-  void fill_shape(const Eigen::Matrix3Xd& points, const Eigen::VectorXd& weights,
-                  const TabulatedKernel& kernel, int threads);
-  void mark_nearby();
+  void check(const PlacedPoints& moving) const;
 
-  std::array<int, 3> size_;
-  Eigen::Vector3d low_;  // of grid point 0
+  std::array<int, 3> size_ = {1, 1, 1};            // blocks of 3 x 3 x 3 cells
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();  // of grid point 0
   double spacing_;
-  int types_;
-  bool has_shape_ = false;
-  std::vector<float> values_;         // (types + shape) x nx x ny x nz
-  std::vector<std::uint8_t> nearby_;  // nx x ny x nz: 1 = a value of the cell's stencil is not 0
+  int types_, shapes_ = 0;
+  std::vector<std::int32_t> blocks_;   // FieldMaps::blocks
+  std::vector<std::uint16_t> values_;  // FieldMaps::values
 };
 
 /// The same score by the sum over all pairs: slow, exact.

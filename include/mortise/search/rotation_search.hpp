@@ -98,9 +98,4 @@ class RotationSearch {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Seconds of one core for one real-to-complex and one complex-to-real single-precision FFTW
-/// transform of this grid, nothing else: the unit that the search's speed is stated in. The best of
-/// several repetitions.
-[[nodiscard]] double bare_fft_seconds(const std::array<int, 3>& grid_size);
-
 }  // namespace mortise
