@@ -18,8 +18,20 @@ RadialTransform double_skin_transform(const DoubleSkinOptions& options) {
   if (!(options.penalty >= 0.0) || !std::isfinite(options.penalty))
     throw InputError("double skin: penalty must be >= 0 and finite, got " +
                      std::to_string(options.penalty));
-  return [options](double k, double r) {
-    return ball_transform(k, r + options.offset) - options.penalty * ball_transform(k, r);
+  if (!(options.penalty_radius >= 0.0) || !std::isfinite(options.penalty_radius))
+    throw InputError("double skin: penalty radius must be >= 0 and finite, got " +
+                     std::to_string(options.penalty_radius));
+  // Core over skin by volume, at the radius for which the penalty is given.
+  const double share =
+      options.penalty_radius > 0.0
+          ? options.penalty *
+                std::pow(options.penalty_radius / (options.penalty_radius + options.offset), 3)
+          : 0.0;
+  return [options, share](double k, double r) {
+    const double penalty = options.penalty_radius > 0.0
+                               ? share * std::pow((r + options.offset) / r, 3)
+                               : options.penalty;
+    return ball_transform(k, r + options.offset) - penalty * ball_transform(k, r);
   };
 }
 

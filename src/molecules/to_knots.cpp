@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/molecules/merge_buried.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "mortise/molecules/surface.hpp"
 
@@ -43,6 +44,9 @@ Knots to_knots(const Molecule& molecule, const ToKnotsOptions& options) {
   if (!(options.exposed_area >= 0.0))
     throw InputError("to_knots: exposed_area must be >= 0, got " +
                      std::to_string(options.exposed_area));
+  if (!(options.merge_buried >= 0.0))
+    throw InputError("to_knots: merge_buried must be >= 0, got " +
+                     std::to_string(options.merge_buried));
   // Hydrogens go before the surface is made: united radii stand for them.
   Molecule heavy{molecule.path, {}};
   std::copy_if(molecule.atoms.begin(), molecule.atoms.end(), std::back_inserter(heavy.atoms),
@@ -62,6 +66,10 @@ Knots to_knots(const Molecule& molecule, const ToKnotsOptions& options) {
         weighted ? 1.0 + options.propensity * interface_propensity(atom.residue_name) : 1.0;
   }
   check_knots(knots, "to_knots");
+  if (options.merge_buried > 0.0)
+    return merge_buried(
+        knots,
+        {.largest = options.merge_buried, .offset = options.offset, .threads = options.threads});
   return knots;
 }
 

@@ -100,14 +100,20 @@ std::vector<Stage> stages_of(const std::shared_ptr<const MapScorer>& scorer, con
 
 SearchPlan plan_dock(const Body& receptor, const Body& ligand, const DockOptions& options) {
   check_options("dock", dock_option_rows(), options);
+  if (options.polish && (options.radius == 0.0 || options.merge_buried > 0.0))
+    throw InputError(
+        "dock: polish needs atoms of one radius; with radius 0 or merge_buried leave it out");
   SearchPlan plan;
   plan.kind = "dock";
   plan.options = to_json(options);
   plan.threads = options.threads;
   if (options.random_start) plan.start = random_start(*options.random_start, kStartReach);
   const Body moving = options.random_start ? moved_body(ligand, plan.start) : ligand;
-  const ToKnotsOptions knots{
-      .radius = options.radius, .propensity = options.propensity, .threads = options.threads};
+  const ToKnotsOptions knots{.radius = options.radius,
+                             .propensity = options.propensity,
+                             .merge_buried = options.merge_buried,
+                             .offset = options.double_skin.offset,
+                             .threads = options.threads};
   plan.fixed = receptor.record;
   plan.fixed.knots = body_knots(receptor, knots, options.ball_grid);
   plan.moving = ligand.record;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "mortise/affinity/double_skin.hpp"
 #include "mortise/affinity/sampled_field.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/contact.hpp"
@@ -18,6 +19,7 @@
 #include "mortise/runs/body_forms.hpp"
 #include "runs/mate_directions.hpp"
 #include "runs/option_table.hpp"
+#include "runs/part_knots.hpp"
 #include "runs/random_start.hpp"
 #include "scoring/part_scorer.hpp"
 
@@ -150,6 +152,48 @@ Parts make_parts(Part fixed, Part moving, const MateOptions& options) {
   return parts;
 }
 
+// Makes both parts' knots, by the form asked for, and the channel of their double skins.
+// Bodies that are balls already are taken as they are.
+Channel skin_channel(const Parts& parts, const Body& fixed_body, const Body& moving_body,
+                     const MateOptions& options, SearchPlan& plan) {
+  const SampledSkinOptions skin{.spacing = parts.step,
+                                .offset = parts.offset,
+                                .penalty = options.penalty,
+                                .feature = options.feature,
+                                .feature_radius = 2.0 * parts.offset};
+  const PartPair& pair = *parts.pair;
+  const double spacing = parts.step * parts.length;
+  // In units of the grid step the scores fit single precision, whatever the parts' unit.
+  const double weight = std::pow(spacing, -3);
+  if (options.knots == PartKnots::kNodes) {
+    plan.fixed.knots = skin_knots("fixed", pair.fixed_frame, pair.pair.fixed().field, skin);
+    plan.moving.knots = skin_knots("moving", pair.moving_frame, pair.pair.moving().field, skin);
+    return sampled_channel("skin", weight, plan.fixed.knots, plan.moving.knots, spacing);
+  }
+  const PartBallsOptions balls{.step = options.ball_step,
+                               .mu = options.ball_mu,
+                               .expansion = options.ball_expansion,
+                               .largest = options.ball_largest,
+                               .threads = options.threads};
+  const auto balls_of = [&](const char* name, const Body& body, const LocalFrame& frame,
+                            const Part& local) {
+    return body.balls() != nullptr ? *body.balls() : part_balls(name, frame, *local.solid, balls);
+  };
+  const Knots fixed = balls_of("fixed", fixed_body, pair.fixed_frame, parts.local_fixed);
+  const Knots moving = balls_of("moving", moving_body, pair.moving_frame, parts.local_moving);
+  plan.fixed.knots = fixed;
+  plan.moving.knots = moving;
+  // The option is the ratio of core and skin, which all balls have; the channel asks for lambda at
+  // one radius: at r0, where a ball with its skin has eight times the volume.
+  const double offset = parts.offset * parts.length;
+  Channel channel = double_skin_channel(
+      fixed, moving,
+      {.offset = offset, .penalty = 8.0 * options.ball_penalty, .penalty_radius = offset});
+  channel.name = "skin";
+  channel.weight = weight;
+  return channel;
+}
+
 // Ranks a rotation set's members and, unless an axis is given, those that lay faces together.
 RotationSet mate_rotations(const Parts& parts, const MateOptions& options,
                            const Eigen::Quaterniond& search_from_fixed) {
@@ -254,6 +298,8 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
   if (options.axis && !(options.axis->fixed.norm() > 0.0 && options.axis->moving.norm() > 0.0 &&
                         options.axis->fixed.allFinite() && options.axis->moving.allFinite()))
     throw InputError("mate: an axis must be finite and not 0");
+  if (options.skeletal > 0.0 && options.knots != PartKnots::kNodes)
+    throw InputError("mate: the skeletal channel needs knots that are nodes");
   SearchPlan plan;
   plan.kind = "mate";
   plan.options = to_json(options);
@@ -269,25 +315,17 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
   } else {
     parts = make_parts(body_part(fixed), moving_part, options);
   }
-  const SampledSkinOptions skin{.spacing = parts.step,
-                                .offset = parts.offset,
-                                .penalty = options.penalty,
-                                .feature = options.feature,
-                                .feature_radius = 2.0 * parts.offset};
   const PartPair& pair = *parts.pair;
   plan.fixed = fixed.record;
-  plan.fixed.knots = skin_knots("fixed", pair.fixed_frame, pair.pair.fixed().field, skin);
   plan.moving = moving.record;
-  plan.moving.knots = skin_knots("moving", pair.moving_frame, pair.pair.moving().field, skin);
   plan.search.spacing = parts.step * parts.length;
   plan.search.cutoff = 0.75 / plan.search.spacing;
   plan.search.per_rotation = options.per_rotation;
   plan.search.separation = options.separation * parts.length;
   plan.search.summits = true;  // sliding fits have long slopes, which would take all places
-  // In units of the grid step the scores fit single precision, whatever the parts' unit.
-  const double weight = std::pow(plan.search.spacing, -3);
-  plan.channels = {
-      sampled_channel("skin", weight, plan.fixed.knots, plan.moving.knots, plan.search.spacing)};
+  const double weight = std::pow(plan.search.spacing, -3);  // as of the skin
+  plan.channels = {skin_channel(
+      parts, fixed, options.random_start ? moved_body(moving, plan.start) : moving, options, plan)};
   if (options.skeletal > 0.0)
     plan.channels.push_back(sampled_channel(
         "skeletal", weight * options.skeletal,

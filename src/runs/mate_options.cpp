@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of mating options and its presets.
 #include <cstdio>
+#include <utility>
 
 #include "mortise/core/errors.hpp"
 #include "mortise/runs/mate.hpp"
@@ -38,6 +39,24 @@ void parse_axis(O& o, const std::string& text) {
   o.axis = axis;
 }
 
+constexpr std::pair<PartKnots, const char*> kForms[] = {{PartKnots::kNodes, "nodes"},
+                                                        {PartKnots::kBalls, "balls"}};
+
+std::string print_form(const O& o) {
+  for (const auto& [form, name] : kForms)
+    if (form == o.knots) return name;
+  return "";
+}
+
+void parse_form(O& o, const std::string& text) {
+  for (const auto& [form, name] : kForms) {
+    if (text != name) continue;
+    o.knots = form;
+    return;
+  }
+  throw InputError("knots: expected nodes or balls, got \"" + text + "\"");
+}
+
 constexpr Row kRows[] = {
     {"rotations", kSearch, "Rotations searched; with --axis, turns for each way round",
      Row::Integer([](O& o) -> int& { return o.rotations; }), 1.0},
@@ -66,6 +85,23 @@ constexpr Row kRows[] = {
      Row::Real([](O& o) -> double& { return o.feature; }), 0.0, 100.0},
     {"skeletal", kSearch, "Weight of the skeletal densities as a second channel; a number",
      Row::Real([](O& o) -> double& { return o.skeletal; }), 0.0, 1e6},
+    {"knots", kSearch,
+     "What the search scores: nodes = the double skin on a grid, balls = the parts taken apart "
+     "into "
+     "balls",
+     TextForm<O>{print_form, parse_form}},
+    {"ball_step", kSearch, "Grid step of the decomposition into balls",
+     Row::Real([](O& o) -> double& { return o.ball_step; }), 0.0, 1.0, true},
+    {"ball_mu", kSearch,
+     "How far a ball may stick out of a chosen one, in its radii, and be passed over; not a length",
+     Row::Real([](O& o) -> double& { return o.ball_mu; }), 0.0, 1.0},
+    {"ball_largest", kSearch, "Radius of a ball, at most",
+     Row::Real([](O& o) -> double& { return o.ball_largest; }), 0.0, 1e3, true},
+    {"ball_penalty", kSearch,
+     "What a ball's core weighs against the ball with its skin, by volume; not a length",
+     Row::Real([](O& o) -> double& { return o.ball_penalty; }), 0.0, 1e6, true},
+    {"ball_expansion", kSearch, "How much balls grow, in half grid cell diagonals; not a length",
+     Row::Real([](O& o) -> double& { return o.ball_expansion; }), 0.0, 1.0},
     {"distance_spacing", kRanking, "Grid step of the parts' distances, for judging contact",
      Row::Real([](O& o) -> double& { return o.distance_spacing; }), 0.0, 10.0, true},
     {"tolerance", kRanking, "Distance up to which surfaces count as in contact",

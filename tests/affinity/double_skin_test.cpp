@@ -97,6 +97,22 @@ TEST(DoubleSkin, TransformIsBallsDifference) {
   EXPECT_NEAR(t(0.0, 1.8), four_thirds * (std::pow(3.2, 3) - 7.0 * std::pow(1.8, 3)), 1e-12);
 }
 
+TEST(DoubleSkin, PenaltyByRadiusKeepsTheRatioOfCoreAndSkin) {
+  // Given at 1.8 as 7: core over skin is 7 (1.8 / 3.2)^3 = 1.2459 for every ball.
+  const RadialTransform t = double_skin_transform({1.4, 7.0, 1.8});
+  const RadialTransform same = double_skin_transform({1.4, 7.0});
+  for (const double k : {0.0, 0.1, 0.31}) EXPECT_NEAR(t(k, 1.8), same(k, 1.8), 1e-12);
+  for (const double r : {0.3, 1.4, 1.8, 4.0, 50.0}) {
+    const double skin = 4.0 / 3.0 * kPi * std::pow(r + 1.4, 3);
+    EXPECT_NEAR(t(0.0, r) / skin, 1.0 - 7.0 * std::pow(1.8 / 3.2, 3), 1e-12) << r;
+  }
+  // Not the skin, only the core changes.
+  const double k = 0.2, r = 3.0, penalty = 7.0 * std::pow(1.8 / 3.2 * 4.4 / 3.0, 3);
+  EXPECT_NEAR(t(k, r), ball_transform(k, 4.4) - penalty * ball_transform(k, 3.0), 1e-12);
+  for (const double bad : {-1.0, kNan, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW((void)double_skin_transform({1.4, 7.0, bad}), InputError);
+}
+
 TEST(DoubleSkin, RealWeightsBecomeImaginary) {
   const Channel c = double_skin_channel(one_knot(1.0, 0.7), one_knot(1.0, -2.0));
   EXPECT_EQ(c.fixed.weights[0], std::complex<double>(0.0, 0.7));

@@ -12,6 +12,7 @@
 
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/molecules/merge_buried.hpp"
 #include "mortise/molecules/radii.hpp"
 
 namespace mortise {
@@ -68,6 +69,24 @@ TEST(ToKnots, RadiusZeroTakesEachAtomsOwn) {
   for (Eigen::Index i = 0; i < knots.size(); ++i)
     EXPECT_EQ(knots.points(3, i), atom_radius(m.atoms[i < 5 ? i : i + 1]));
   EXPECT_NE(knots.points(3, 0), knots.points(3, 1));
+}
+
+TEST(ToKnots, MergesBuriedAtomsWhereAsked) {
+  // 7^3 carbons 1.9 apart: the middle is deep enough for balls of 4.
+  Molecule m;
+  int n = 0;
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j)
+      for (int k = -3; k <= 3; ++k)
+        m.atoms.push_back(make_atom("CB", "ALA", "A", n++, {1.9 * i, 1.9 * j, 1.9 * k}));
+  const Knots plain = to_knots(m), merged = to_knots(m, {.merge_buried = 4.0});
+  const Knots by_hand = merge_buried(plain, {.largest = 4.0});
+  EXPECT_LT(merged.size(), plain.size());
+  EXPECT_EQ(merged.points, by_hand.points);
+  EXPECT_EQ(merged.weights, by_hand.weights);
+  EXPECT_NE(to_knots(m, {.merge_buried = 4.0, .offset = 2.0}).weights, merged.weights);
+  EXPECT_THROW((void)to_knots(m, {.merge_buried = -1.0}), InputError);
+  EXPECT_THROW((void)to_knots(m, {.merge_buried = std::nan("")}), InputError);
 }
 
 TEST(ToKnots, BuriedSideChainsWeighOne) {

@@ -106,6 +106,25 @@ TEST(Docking, WithoutRescoringTheScoreIsTheSearchs) {
   EXPECT_EQ(list.poses.size(), 60U);
 }
 
+TEST(Docking, TakesRadiiByTypeAndMergedAtoms) {
+  const Molecule fixed = blob(700, 3), moving = blob(500, 4);
+  DockOptions options = quick();
+  options.polish = false;
+  const SearchPlan uniform = plan_dock(fixed, moving, options);
+  options.radius = 0.0;
+  options.double_skin.penalty_radius = 1.8;
+  const SearchPlan own = plan_dock(fixed, moving, options);
+  options.merge_buried = 4.5;
+  const SearchPlan merged = plan_dock(fixed, moving, options);
+  EXPECT_EQ(own.fixed.knots.size(), uniform.fixed.knots.size());
+  EXPECT_EQ(own.moving.knots.points(3, 0), atom_radius(moving.atoms[0]));
+  EXPECT_NE(own.moving.knots.points(3, 0), uniform.moving.knots.points(3, 0));
+  EXPECT_LT(merged.fixed.knots.size(), own.fixed.knots.size());
+  EXPECT_LT(merged.moving.knots.size(), own.moving.knots.size());
+  EXPECT_GT(merged.moving.knots.points.row(3).maxCoeff(), 3.0);
+  EXPECT_FALSE(Ranked(fixed, moving, options).list.poses.empty());
+}
+
 TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
   const Molecule fixed = blob(300, 1), moving = blob(150, 2);
   const PoseDistance distance(atom_positions(moving));
@@ -149,7 +168,10 @@ TEST(DockOptions, PresetsAndTheirErrors) {
     EXPECT_THROW((void)plan_dock(body, body, options), InputError);
   };
   refused([](DockOptions& o) { o.rotations = 0; });
-  refused([](DockOptions& o) { o.radius = 0.0; });
+  refused([](DockOptions& o) { o.radius = -1.0; });
+  refused([](DockOptions& o) { o.radius = 0.0; });  // with polish
+  refused([](DockOptions& o) { o.merge_buried = 4.0; });
+  refused([](DockOptions& o) { o.merge_buried = -4.0; });
   refused([](DockOptions& o) { o.poses = 0; });
   refused([](DockOptions& o) { o.cluster_radius = -1.0; });
   refused([](DockOptions& o) { o.potential = "no/such/file"; });

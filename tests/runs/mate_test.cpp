@@ -12,6 +12,7 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/core/rotation_vector.hpp"
 #include "mortise/metrics/placement.hpp"
+#include "mortise/parts/decompose.hpp"
 #include "mortise/parts/diameter.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "runs/voxel_parts.hpp"
@@ -178,6 +179,20 @@ TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
   EXPECT_LT(largest_error(moving, inverse(start), list.poses.front().moving_in_fixed), 0.002);
   options.skeletal = -1.0;
   EXPECT_THROW((void)plan_mate(fixed, moving, options), InputError);
+}
+
+TEST(Mating, TakesBallsAsTheyAre) {
+  MateOptions options = small_options();
+  options.knots = PartKnots::kBalls;
+  const Part block = mortise_block(), plate = tenon_plate();
+  const Knots a = decompose(*block.solid, {.grid = 16, .weights = KnotWeights::kShare}).knots;
+  const Knots b = decompose(*plate.solid, {.grid = 16, .weights = KnotWeights::kShare}).knots;
+  const SearchPlan plan = plan_mate(a, b, options);
+  EXPECT_EQ(plan.fixed.knots.points, a.points);
+  EXPECT_EQ(plan.moving.knots.points, b.points);
+  EXPECT_EQ(plan.channels.front().fixed.weights.imag(), a.weights.real());
+  options.skeletal = 1.0;  // is of nodes
+  EXPECT_THROW((void)plan_mate(a, b, options), InputError);
 }
 
 TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {

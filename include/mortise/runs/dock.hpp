@@ -22,16 +22,19 @@ struct DockOptions {
   int rotations = 3600;  ///< size of the rotation set; >= 1
   SearchOptions search = {};
   DoubleSkinOptions double_skin = {};
-  double radius = 1.8;      ///< of every heavy atom's knot, angstrom; > 0
-  double propensity = 0.7;  ///< how much residues' interface propensities change the weights of
-                            ///< exposed side chains; >= 0
+  double radius = 1.8;  ///< of every heavy atom's knot, angstrom; 0 = each atom's own (radii.hpp)
+  double merge_buried = 0.0;  ///< buried atoms are merged into balls up to this radius, angstrom
+                              ///< (merge_buried.hpp); 0 = one knot per atom
+  double propensity = 0.7;    ///< how much residues' interface propensities change the weights of
+                              ///< exposed side chains; >= 0
   int ball_grid = 32;   ///< of a body that is a part: nodes along its longest side, by which it is
                         ///< taken apart into balls; 2 to 1024
   bool rescore = true;  ///< rank by shape plus contact potential instead of shape alone
   std::string potential =
       {};              ///< file of the contact potential; empty = fitted_contact_potential()
   bool polish = true;  ///< move the best poses uphill on their score (polish.hpp); those that come
-                       ///< within the cluster radius of a better one are dropped
+                       ///< within the cluster radius of a better one are dropped. Needs atoms of
+                       ///< one radius
   int poses = 2000;    ///< poses reported, at most; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none

@@ -22,6 +22,12 @@ struct MateAxis {
   Eigen::Vector3d moving = Eigen::Vector3d::UnitZ();  ///< input frame; any length but 0
 };
 
+/// What the search scores.
+enum class PartKnots {
+  kNodes,  ///< the double skin sampled at the nodes of a grid (sampled_field.hpp)
+  kBalls,  ///< a spherical decomposition, overlaps divided among the balls (double_skin.hpp)
+};
+
 /// Lengths are fractions of the smaller part's diameter where nothing else is said: scaling both
 /// parts changes nothing.
 struct MateOptions {
@@ -41,6 +47,13 @@ struct MateOptions {
                              ///< >= 0
   double skeletal = 0.0;     ///< weight of a second channel, the parts' skeletal densities, beside
                              ///< the double skin's 1; >= 0, 0 = none. Needs solids of meshes
+  PartKnots knots = PartKnots::kNodes;
+  double ball_step = 0.02;      ///< grid step of the decomposition into balls; > 0
+  double ball_mu = 0.25;        ///< its mu (DecomposeOptions::protrusion); 0 to 1
+  double ball_largest = 0.04;   ///< radius of a ball, at most; > 0
+  double ball_penalty = 2.0;    ///< what a ball's core weighs against the ball with its skin, by
+                                ///< volume: lambda (r / (r + r0))^3; > 0
+  double ball_expansion = 0.5;  ///< balls grow by this part of half a grid cell's diagonal; 0 to 1
   double distance_spacing = 0.01;   ///< grid step of the parts' distances, for judging contact; > 0
   double tolerance = 0.005;         ///< distance up to which surfaces are in contact; > 0
   double one_sided_weight = 1.0;    ///< what contact that pushes one way counts, as far as contact
