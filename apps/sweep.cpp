@@ -65,8 +65,7 @@ Path refined(const std::vector<RigidMotion>& given, const Reach& reach, double s
     const double pieces = step > 0.0 ? std::max(1.0, std::ceil(motion / step)) : 1.0;
     if (!(static_cast<double>(path.motions.size()) + pieces <= kMostMotions))
       throw InputError("sweep: the path has more than 1000000 steps; expected a larger --step");
-    expected a larger-- step ");
-        path.largest = std::max(path.largest, motion / pieces);
+    path.largest = std::max(path.largest, motion / pieces);
     const Eigen::Vector3d from = a * reach.centre, to = b * reach.centre;
     for (int n = 1; n <= static_cast<int>(pieces); ++n) {
       const double s = n / pieces;
