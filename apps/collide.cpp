@@ -24,7 +24,7 @@ namespace {
 
 struct CollideFlags {
   CommonOptions common;
-  std::string fixed, moving, poses, output;
+  std::string fixed, moving, poses, output, certificate = "trees";
   ColliderOptions collider = {.tree_steps = 2000000};
   CollisionBodyOptions body;
 };
@@ -54,21 +54,20 @@ const char* name(DecidedBy by) { return by == DecidedBy::kTree ? "tree" : "sum";
 
 void write_csv(const std::string& path, const std::vector<Collision>& answers) {
   std::ostringstream text;
-  text << "pose,answer,by,gap,dx,dy,dz,ex,ey,ez\n" << std::setprecision(9);
+  text << "pose,answer,by,gap,dx,dy,dz,ex,ey,ez,modes\n" << std::setprecision(9);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     text << i + 1 << ',' << name(answers[i].contact) << ',' << name(answers[i].by);
     for (const double v : numbers(answers[i].gap)) text << ',' << v;
-    text << '\n';
+    text << ',' << answers[i].modes << '\n';
   }
   write_file_atomically(path, text.str());
 }
 
 void check_files(const CollideFlags& options) {
-  if (options.output.empty()) return;
-  std::vector<std::string> inputs = {options.poses};
-  for (const std::string& input : {options.fixed, options.moving})
-    inputs.push_back(body_path(input));
-  check_output_file(options.output, inputs, true, "");
+  if (!options.output.empty())
+    check_output_file(options.output,
+                      {options.poses, body_path(options.fixed), body_path(options.moving)}, true,
+                      "");
 }
 
 // In pieces, so that progress shows and Ctrl-C is heard.
@@ -90,6 +89,7 @@ std::vector<Collision> answers_of(const Collider& collider, const std::vector<Ri
 void run(CollideFlags options) {
   options.collider.threads = options.body.threads = options.common.threads;
   options.collider.with_gap = true;
+  if (options.certificate == "sum") options.collider.tree_steps = 0;
   check_files(options);
   const std::vector<RigidMotion> poses = read_pose_csv(options.poses);
   const CollisionBody fixed = collision_body_of(options.fixed, options),
@@ -107,12 +107,16 @@ void run(CollideFlags options) {
   const long no = count([](const Collision& c) { return c.contact == Contact::kNo; });
   const long by_sum = count([](const Collision& c) { return c.by == DecidedBy::kSum; });
   const long band = static_cast<long>(answers.size()) - yes - no;
+  double modes = 0.0;  // of the sum, in the mean of the poses that it was asked for
+  for (const Collision& c : answers) modes += c.modes;
+  modes /= static_cast<double>(std::max(by_sum, 1L));
   if (options.common.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const Collision& c : answers) {
       const Eigen::Vector3d &d = c.gap.translation_gradient, &e = c.gap.rotation_gradient;
       rows.push_back({{"answer", name(c.contact)},
                       {"by", name(c.by)},
+                      {"modes", c.modes},
                       {"gap", c.gap.value},
                       {"translation_gradient", {d[0], d[1], d[2]}},
                       {"rotation_gradient", {e[0], e[1], e[2]}}});
@@ -125,6 +129,7 @@ void run(CollideFlags options) {
                                       {"band", collider.tree_band()},
                                       {"sum_band", nullptr},
                                       {"modes", options.collider.modes},
+                                      {"mean_modes", modes},
                                       {"fixed_balls", fixed.balls.size()},
                                       {"moving_balls", moving.balls.size()},
                                       {"seconds", seconds}};
@@ -135,15 +140,20 @@ void run(CollideFlags options) {
   if (options.common.quiet) return;
   std::printf("balls    %ld fixed, %ld moving\n", static_cast<long>(fixed.balls.size()),
               static_cast<long>(moving.balls.size()));
-  if (collider.tree_band() > 0.0)
+  if (options.certificate == "sum")
+    std::printf(
+        "band     %.4g: \"no\" is certain, and given to all that are farther apart; "
+        "the sum has no \"yes\"\n",
+        collider.sum_band());
+  else if (collider.tree_band() > 0.0)
     std::printf("band     %.4g: closer than this the answer may be \"band\"\n",
                 collider.tree_band());
   else
     std::printf("band     none: answers are exact\n");
   std::printf("answers  %ld yes, %ld no, %ld band\n", yes, no, band);
   if (by_sum > 0)
-    std::printf("by sum   %ld, where --tree-steps were used up: its band is %.4g\n", by_sum,
-                collider.sum_band());
+    std::printf("by sum   %ld, after %.0f of %d modes in the mean; its band is %.4g\n", by_sum,
+                modes, options.collider.modes, collider.sum_band());
   std::printf("time     %.3f s, %.0f poses per second\n", seconds,
               static_cast<double>(poses.size()) / std::max(seconds, 1e-9));
 }
@@ -169,7 +179,7 @@ void add_collide(CLI::App& program) {
       "-o,--output", options->output,
       "CSV: pose, answer (yes, no or band), what decided, gap value (common volume by the modes "
       "kept; overlapping atoms count each), its gradient by translation and by rotation about "
-      "the moving body's origin");
+      "the moving body's origin, modes that the sum took to answer");
   command->add_option("--modes", options->collider.modes, "Fourier modes of the gap function")
       ->capture_default_str()
       ->check(CLI::Range(200, 10000000));
@@ -183,15 +193,24 @@ void add_collide(CLI::App& program) {
                    "Parts: pairs of balls examined per pose before the sum of modes decides")
       ->capture_default_str()
       ->check(CLI::Range(1, 2000000000));
-  add_common_options(*command, options->common,
-                     "  mortise collide block.stl peg.stl --poses poses.csv -o answers.csv\n"
-                     "  mortise export run.h5 --format csv -o poses.csv && \\\n"
-                     "    mortise collide receptor.pdb ligand.pdb --poses poses.csv --json\n"
-                     "\"no\" and \"yes\" are certain, by trees of balls around and inside the "
-                     "bodies; \"band\" means\n"
-                     "closer than the band that is printed. A truncated sum narrows it where the "
-                     "trees were stopped.\n"
-                     "Of molecules and balls the bodies are the balls, and answers are exact.\n");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "What answers: trees of balls, and the sum where these run out of steps; or the "
+                   "truncated sum alone, which stops as soon as a miss is certain")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"trees", "sum"}));
+  add_common_options(
+      *command, options->common,
+      "  mortise collide block.stl peg.stl --poses poses.csv -o answers.csv\n"
+      "  mortise export run.h5 --format csv -o poses.csv && \\\n"
+      "    mortise collide receptor.pdb ligand.pdb --poses poses.csv --json\n"
+      "\"no\" and \"yes\" are certain, by trees of balls around and inside the "
+      "bodies; \"band\" means\n"
+      "closer than the band that is printed. A truncated sum narrows it where the "
+      "trees were stopped.\n"
+      "Of molecules and balls the bodies are the balls, and answers are exact. Bodies of two kinds "
+      "need\n"
+      "one unit of length.\n");
   command->callback([options] { run(*options); });
 }
 

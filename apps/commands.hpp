@@ -58,5 +58,7 @@ void add_mate(CLI::App& program);
 void add_report(CLI::App& program);
 void add_rescore(CLI::App& program);
 void add_rotations(CLI::App& program);
+void add_sum(CLI::App& program);
+void add_sweep(CLI::App& program);
 
 }  // namespace mortise::app

@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   mortise::app::add_mate(program);
   mortise::app::add_rescore(program);
   mortise::app::add_rotations(program);
+  mortise::app::add_sum(program);
+  mortise::app::add_sweep(program);
   program.footer(
       "Exit codes: 0 done; 1 the input or the options are at fault; 2 internal error;\n"
       "130 stopped by Ctrl-C, with what was done so far saved where the command says so.");

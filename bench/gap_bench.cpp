@@ -48,19 +48,6 @@ void run(benchmark::State& state, bool complex, double oversampling) {
   state.counters["spectrum_error"] = gap.interpolation_error();
 }
 
-// A Hessian-vector product.
-void gap_product(benchmark::State& state) {
-  const GapFunction gap(body(1, false), body(2, false),
-                        {.max_modes = static_cast<int>(state.range(0))});
-  const std::vector<RigidMotion> places = poses();
-  const Eigen::Vector3d shift(0.6, 0.0, 0.8), turn(0.0, 0.1, 0.0);
-  std::size_t i = 0;
-  for (auto step : state) {
-    benchmark::DoNotOptimize(gap.hessian_product(places[i], shift, turn));
-    i = (i + 1) % places.size();
-  }
-}
-
 void gap_wrench(benchmark::State& state) { run(state, false, 2.0); }
 void gap_wrench_3x(benchmark::State& state) { run(state, false, 3.0); }
 void gap_wrench_complex(benchmark::State& state) { run(state, true, 2.0); }
@@ -71,7 +58,6 @@ BENCHMARK(gap_wrench)
     ->Range(256, 65536)
     ->Arg(8192)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK(gap_product)->Arg(4096)->Unit(benchmark::kMicrosecond);
 BENCHMARK(gap_wrench_3x)->Arg(4096)->Unit(benchmark::kMicrosecond);
 BENCHMARK(gap_wrench_complex)->Arg(4096)->Unit(benchmark::kMicrosecond);
 

@@ -24,6 +24,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/point_grid.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "mortise/metrics/reference_complex.hpp"
@@ -72,56 +73,20 @@ std::vector<std::vector<std::string>> read_table(const std::string& path) {
   return rows;
 }
 
-// Fixed points in cells of the potential's range.
-class Cells {
- public:
-  explicit Cells(const TypedPoints& body) : body_(body) {
-    low_ = body.points.rowwise().minCoeff();
-    const Eigen::Vector3d extent = body.points.rowwise().maxCoeff() - low_;
-    for (int d = 0; d < 3; ++d) size_[d] = static_cast<int>(extent[d] / kContactRange) + 1;
-    members_.resize(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2]);
-    for (int i = 0; i < body.points.cols(); ++i) {
-      if (body.types[i] < 0) continue;
-      const Eigen::Vector3d at = (body.points.col(i) - low_) / kContactRange;
-      members_[index(static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2]))]
-          .push_back(i);
-    }
-  }
-  template <class Visit>
-  void near(const Eigen::Vector3d& p, const Visit& visit) const {
-    int cell[3];
-    for (int d = 0; d < 3; ++d) {
-      cell[d] = static_cast<int>(std::floor((p[d] - low_[d]) / kContactRange));
-      if (cell[d] < -1 || cell[d] > size_[d]) return;
-    }
-    for (int a = std::max(0, cell[0] - 1); a <= std::min(size_[0] - 1, cell[0] + 1); ++a)
-      for (int b = std::max(0, cell[1] - 1); b <= std::min(size_[1] - 1, cell[1] + 1); ++b)
-        for (int c = std::max(0, cell[2] - 1); c <= std::min(size_[2] - 1, cell[2] + 1); ++c)
-          for (const int i : members_[index(a, b, c)]) {
-            const double sq = (body_.points.col(i) - p).squaredNorm();
-            if (sq < kContactRange * kContactRange) visit(body_.types[i], std::sqrt(sq));
-          }
-  }
-
- private:
-  [[nodiscard]] std::size_t index(int a, int b, int c) const {
-    return (static_cast<std::size_t>(a) * size_[1] + b) * size_[2] + c;
-  }
-  const TypedPoints& body_;
-  Eigen::Vector3d low_;
-  int size_[3];
-  std::vector<std::vector<int>> members_;
-};
-
-void fill_features(const Cells& fixed, const TypedPoints& moving, const RigidMotion& motion,
-                   double shape, Eigen::Ref<Eigen::VectorXf> out) {
+// `near_fixed`: the fixed points within the potential's range.
+void fill_features(const TypedPoints& fixed, const detail::PointGrid& near_fixed,
+                   const TypedPoints& moving, const RigidMotion& motion, double shape,
+                   Eigen::Ref<Eigen::VectorXf> out) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFeatures);
   sum[0] = shape;
   for (Eigen::Index j = 0; j < moving.points.cols(); ++j) {
     const int type = moving.types[j];
     if (type < 0) continue;
-    fixed.near(motion * moving.points.col(j).eval(), [&](int other, double d) {
-      const int pair = 1 + pair_index(type, other);
+    const Eigen::Vector3d at = motion * Eigen::Vector3d(moving.points.col(j));
+    near_fixed.for_each_near(at, [&](std::int32_t i) {
+      if (fixed.types[i] < 0) return;
+      const double d = (fixed.points.col(i) - at).norm();
+      const int pair = 1 + pair_index(type, fixed.types[i]);
       sum[pair] += near_contact(d);
       sum[pair + kPairs] += far_contact(d);
     });
@@ -178,13 +143,13 @@ Choice sample_pair(const std::vector<std::string>& row, const std::string& folde
   }
   const TypedPoints fixed_points{atom_positions(fixed), contact_types(fixed)};
   const TypedPoints moving_points{atom_positions(moving), contact_types(moving)};
-  const Cells cells(fixed_points);
+  const detail::PointGrid near_fixed(fixed_points.points, kContactRange, kContactRange);
   const auto count = static_cast<Eigen::Index>(taken.size());
   Choice choice{Eigen::MatrixXf(kFeatures, count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for (Eigen::Index n = 0; n < count; ++n) {
     const Pose& pose = poses.poses[taken[n].pose];
-    fill_features(cells, moving_points, pose.moving_in_fixed, pose.channels[0] / shape_unit,
-                  choice.features.col(n));
+    fill_features(fixed_points, near_fixed, moving_points, pose.moving_in_fixed,
+                  pose.channels[0] / shape_unit, choice.features.col(n));
     choice.quality[n] = taken[n].quality;
     choice.weight[n] = taken[n].weight;
   }

@@ -65,71 +65,6 @@ class Maker:
         print("wrote", path.relative_to(ROOT))
 
 
-def hausdorff(maker):
-    """Hausdorff error of the truncated obstacle against modes, with its bound [FC, Fig. 3]."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True)
-    for axis, dimension in zip(axes, (2, 3)):
-        rows = maker.rows(f"hausdorff{dimension}d", "obstacle_data", f"hausdorff{dimension}d")
-        pairs = {}
-        for row in rows:
-            pairs.setdefault((row["fixed"], row["moving"]), []).append(row)
-            if row["missed"] != "0":
-                raise SystemExit(f"a certified obstacle lost cells: {row}")
-        for pair in pairs.values():
-            n = [int(r["modes_per_axis"]) for r in pair]
-            axis.loglog(n, [float(r["measured"]) for r in pair], color=INK, alpha=0.25, lw=0.8)
-        modes = sorted({int(r["modes_per_axis"]) for r in rows})
-        mean = [np.mean([float(r["measured"]) for r in rows if int(r["modes_per_axis"]) == n]) for n in modes]
-        bound = [np.max([float(r["bound"]) for r in rows if int(r["modes_per_axis"]) == n]) for n in modes]
-        axis.loglog(modes, mean, color=INK, lw=2, marker="o", ms=3, label="measured, mean of all pairs")
-        axis.loglog(modes, bound, color=ACCENT, lw=2, marker="s", ms=3, label="guaranteed")
-        axis.loglog(modes, [mean[0] * modes[0] / n for n in modes], color="0.5", ls="--", lw=1, label="1 / n")
-        axis.set_title(f"{dimension}D, {len(pairs)} pairs of {len({p[0] for p in pairs})} shapes")
-        axis.set_xlabel("modes per axis n")
-        axis.set_xticks(modes[::2], [str(n) for n in modes[::2]])
-        axis.minorticks_off()
-    axes[0].set_ylabel("Hausdorff error / period (max norm)")
-    axes[0].legend(frameon=False)
-    maker.save(figure, "hausdorff_error.png")
-
-
-def se2(maker):
-    """An SE(2) obstacle from 20 modes per axis [FC, Fig. 6]: the level set and the exact outline."""
-    rows = maker.rows("se2", "obstacle_data", "se2")
-    threshold = float(maker.comments[0].split()[2])
-    angles = sorted({float(r["angle"]) for r in rows})
-    xs = sorted({float(r["x"]) for r in rows})
-    at = {x: i for i, x in enumerate(xs)}
-    turn = {a: i for i, a in enumerate(angles)}
-    gap = np.zeros((len(angles), len(xs), len(xs)))
-    exact = np.zeros_like(gap)
-    for r in rows:
-        index = turn[float(r["angle"])], at[float(r["x"])], at[float(r["y"])]
-        gap[index] = float(r["gap"])
-        exact[index] = float(r["exact"])
-    figure = plt.figure(figsize=(9, 4.2))
-    solid = figure.add_subplot(1, 2, 1, projection="3d")
-    grid_x, grid_y = np.meshgrid(xs, xs, indexing="ij")
-    for i in range(0, len(angles), 3):
-        solid.contour(grid_x, grid_y, gap[i], levels=[threshold], zdir="z", offset=angles[i],
-                      colors=[plt.cm.viridis(i / len(angles))], linewidths=1)
-    solid.set_zlim(0, angles[-1])
-    solid.set_xlabel("x / period")
-    solid.set_ylabel("y / period")
-    solid.set_zlabel("turn, radians")
-    for slot, i in ((3, 0), (4, len(angles) // 8), (7, len(angles) // 4), (8, 3 * len(angles) // 8)):
-        axis = figure.add_subplot(2, 4, slot)
-        axis.contourf(grid_x, grid_y, exact[i], levels=[0.5, 1.5], colors=[LIGHT], alpha=0.6)
-        axis.contour(grid_x, grid_y, gap[i], levels=[threshold], colors=[ACCENT], linewidths=1.2)
-        axis.set_aspect("equal")
-        axis.set_xlim(-0.45, 0.45)
-        axis.set_ylim(-0.45, 0.45)
-        axis.set_xticks([])
-        axis.set_yticks([])
-        axis.set_title(f"{np.degrees(angles[i]):.0f} degrees", fontsize=8)
-    maker.save(figure, "se2_obstacle.png")
-
-
 def plane(maker):
     """All rows of gap_data plane as grids, by modes."""
     rows = maker.rows("gap_plane", "gap_data", "plane")
@@ -241,8 +176,7 @@ def spectrum(maker):
     maker.save(figure, "spectrum_time.png")
 
 
-FIGURES = {"hausdorff": hausdorff, "se2": se2, "convergence": convergence, "residual": residual, "query_time": query_time,
-           "spectrum": spectrum}
+FIGURES = {"convergence": convergence, "residual": residual, "query_time": query_time, "spectrum": spectrum}
 
 
 def main():

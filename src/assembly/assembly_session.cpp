@@ -52,12 +52,6 @@ Wrench AssemblySession::wrench(const RigidMotion& pose, int modes) const {
           -scale * value.rotation_gradient};
 }
 
-double AssemblySession::depth() const noexcept { return 1.0 / std::abs(state_->scale); }
-void AssemblySession::set_depth(double depth) {
-  if (!(depth > 0.0) || !std::isfinite(depth))
-    throw InputError("AssemblySession: depth must be > 0, got " + std::to_string(depth));
-  state_->scale = std::copysign(1.0 / depth, state_->scale);
-}
 int AssemblySession::modes() const noexcept { return state_->gap.modes(); }
 double AssemblySession::moving_radius() const noexcept { return state_->gap.moving_ball().radius; }
 const Eigen::Vector3d& AssemblySession::moving_centre() const noexcept {

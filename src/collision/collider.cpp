@@ -176,10 +176,12 @@ Collision Collider::operator()(const RigidMotion& moving_in_fixed) const {
   if (verdict != Verdict::kStopped) return answer;
   answer.by = DecidedBy::kSum;
   const Cut& cut = s.cut();
-  const double value = (*cut.gap)(pose).value;
-  if (value < cut.threshold - cut.sum_error ||
-      (value <= cut.threshold + cut.sum_error &&  // too close for single precision
-       cut.gap->exact(pose).value < cut.threshold))
+  const GapFunction::Rejection sum = cut.gap->reject(pose, cut.threshold);
+  answer.modes = sum.modes;
+  // With all modes summed the bound is the value plus its error, so the value itself is above the
+  // threshold where the bound is by more than two errors; between, double precision decides.
+  if (sum.rejected || (sum.bound <= cut.threshold + 2.0 * cut.sum_error &&
+                       cut.gap->exact(pose).value < cut.threshold))
     answer.contact = Contact::kNo;
   return answer;
 }

@@ -89,8 +89,7 @@ GapFunction::GapFunction(const BodyDensity& fixed, const BodyDensity& moving,
   s.box = options.box > 0.0 ? options.box : std::max(2.0 * reach, 1e-300);
 
   const int half = (options.max_modes + 1) / 2;
-  const int modes_reach = State::reach_of(
-      options.order == ModeOrder::kEnergy ? 4 * half : half);  // energy has to choose from more
+  const int modes_reach = State::reach_of(half);
   const int side = 2 * (modes_reach + 1);
   const Eigen::MatrixXcd spectrum =
       density_spectrum(fixed, s.fixed_ball.centre, side, s.box, kTolerance, options.threads);
@@ -204,23 +203,6 @@ double GapFunction::interpolation_bound() const noexcept { return state_->kernel
 
 double GapFunction::sum_error_bound() const noexcept {
   return state_->kernel.error_bound * state_->moving_mass * state_->head.back();
-}
-
-AbsoluteGradients absolute_gradients(const GapValue& value, const RigidMotion& fixed_in_world,
-                                     const RigidMotion& moving_in_world) {
-  const Eigen::Quaterniond& fixed = fixed_in_world.rotation;
-  const Eigen::Quaterniond& moving = moving_in_world.rotation;
-  // R = Rf^T Rm, t = Rf^T (xm - xf): a turn of the fixed body by Rf exp([e]x) turns R by exp([-e]x)
-  // and t by -e x t.
-  const Eigen::Vector3d t =
-      fixed.conjugate() * (moving_in_world.translation - fixed_in_world.translation);
-  const Eigen::Vector3d force = fixed * value.translation_gradient;
-  AbsoluteGradients result;
-  result.moving.translation = force;
-  result.fixed.translation = -force;
-  result.moving.rotation = moving.conjugate() * (fixed * value.rotation_gradient);
-  result.fixed.rotation = -value.rotation_gradient - t.cross(value.translation_gradient);
-  return result;
 }
 
 }  // namespace mortise

@@ -44,32 +44,6 @@ void GapFunction::State::order_modes(int half, const Eigen::MatrixXcd& spectrum,
   const auto window = [&](const Eigen::Vector3i& k) {
     return options.window ? options.window(k.cast<double>() / box) : 1.0;
   };
-  if (options.order == ModeOrder::kEnergy) {
-    // Mean square of the moving spectrum over each shell's samples.
-    std::vector<double> energy(candidates.size());
-    for (std::size_t first = 0; first < candidates.size();) {
-      std::size_t last = first;
-      double sum = 0.0;
-      for (; last < candidates.size() &&
-             candidates[last].squaredNorm() == candidates[first].squaredNorm();
-           ++last)
-        for (const SpectrumTable& t : tables)
-          sum += std::norm(t.at(candidates[last].cast<double>() / box, kernel.kernel));
-      for (std::size_t i = first; i < last; ++i)
-        energy[i] = sum / static_cast<double>(last - first) *
-                    spectrum.row(row(candidates[i])).squaredNorm() *
-                    std::pow(window(candidates[i]), 2);
-      first = last;
-    }
-    std::vector<std::size_t> order(candidates.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return energy[a] > energy[b]; });
-    std::vector<Eigen::Vector3i> sorted;
-    sorted.reserve(order.size());
-    for (const std::size_t i : order) sorted.push_back(candidates[i]);
-    candidates = std::move(sorted);
-  }
   candidates.resize(half);
   modes = std::move(candidates);
   coefficients.resize(half, spectrum.cols());

@@ -21,7 +21,7 @@ struct GapFunction::State {
   BodyDensity moving;
   BoundingBall fixed_ball, moving_ball;
   double box = 0.0, bandwidth = 0.0, interpolation_error = 0.0;
-  std::vector<Eigen::Vector3i> modes;  // half space, in order
+  std::vector<Eigen::Vector3i> modes;  // half space, by rising |k|
   Eigen::MatrixXcd coefficients;       // modes x parts: F K / L^3, twice that but for mode 0
   InterpolationKernel kernel;
   std::vector<SpectrumTable> tables;  // of each part

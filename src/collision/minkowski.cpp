@@ -99,19 +99,4 @@ Balls translational_obstacle(const Eigen::Matrix4Xd& fixed, const Eigen::Matrix4
   return all_pairs(fixed, mirrored, options, "translational_obstacle");
 }
 
-Balls swept_balls(const Eigen::Matrix4Xd& body, const std::vector<RigidMotion>& motions,
-                  const MinkowskiOptions& options) {
-  check_balls(body, "swept_balls");
-  if (!std::isfinite(options.offset)) throw InputError("swept_balls: offset must be finite");
-  Balls result(4, body.cols() * static_cast<Eigen::Index>(motions.size()));
-  parallel_for(motions.size(), options.threads, [&](std::size_t m, int) {
-    Eigen::Matrix4Xd moved = body;
-    moved.topRows<3>() = motions[m] * Eigen::Matrix3Xd(body.topRows<3>());
-    moved.row(3).array() += options.offset;
-    result.middleCols(static_cast<Eigen::Index>(m) * body.cols(), body.cols()) =
-        moved.cast<float>();
-  });
-  return options.offset < 0.0 ? kept(result) : result;
-}
-
 }  // namespace mortise

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/nearest_point.hpp"
 #include "core/point_grid.hpp"
-#include "metrics/nearest_point.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise::detail {

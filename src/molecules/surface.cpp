@@ -3,13 +3,13 @@
 #include "mortise/molecules/surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/cell_list.hpp"
 #include "core/sphere_points.hpp"
 #include "molecules/check_balls.hpp"
 #include "mortise/core/errors.hpp"
@@ -18,64 +18,6 @@
 
 namespace mortise {
 namespace {
-
-/// Balls sorted by cubic cell; only occupied cells take memory, so far outliers cost nothing.
-class CellList {
- public:
-  CellList(const Eigen::Matrix3Xd& centres, double edge)
-      : entries_(static_cast<std::size_t>(centres.cols())) {
-    const Eigen::Vector3d low = centres.rowwise().minCoeff();
-    const Eigen::Vector3d extent = centres.rowwise().maxCoeff() - low;
-    const double step = std::max(edge, extent.maxCoeff() / 1e6);  // keeps the keys within 64 bits
-    for (int axis = 0; axis < 3; ++axis)
-      sizes_[axis] = static_cast<std::int64_t>(extent[axis] / step) + 3;  // a rim of empty cells
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      const Eigen::Vector3d cell = (centres.col(static_cast<Eigen::Index>(i)) - low) / step;
-      entries_[i] = {
-          key(static_cast<std::int64_t>(cell[0]) + 1, static_cast<std::int64_t>(cell[1]) + 1,
-              static_cast<std::int64_t>(cell[2]) + 1),
-          static_cast<int>(i)};
-    }
-    std::sort(entries_.begin(), entries_.end());
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-      if (i == 0 || entries_[i].key != entries_[i - 1].key) starts_.push_back(i);
-    starts_.push_back(entries_.size());
-  }
-
-  [[nodiscard]] std::size_t cells() const { return starts_.size() - 1; }
-
-  /// Calls body(ball) for the balls of one occupied cell.
-  template <typename Body>
-  void for_each_in(std::size_t cell, const Body& body) const {
-    for (std::size_t i = starts_[cell]; i < starts_[cell + 1]; ++i) body(entries_[i].ball);
-  }
-  /// Calls body(ball) for the balls of one occupied cell and its 26 neighbours.
-  template <typename Body>
-  void for_each_around(std::size_t cell, const Body& body) const {
-    const std::int64_t centre = entries_[starts_[cell]].key;
-    for (std::int64_t dx = -1; dx <= 1; ++dx)
-      for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        const std::int64_t row = centre + key(dx, dy, 0);
-        auto it = std::lower_bound(entries_.begin(), entries_.end(), Entry{row - 1, -1});
-        for (; it != entries_.end() && it->key <= row + 1; ++it) body(it->ball);
-      }
-  }
-
- private:
-  struct Entry {
-    std::int64_t key = 0;
-    int ball = 0;
-    bool operator<(const Entry& other) const {
-      return key != other.key ? key < other.key : ball < other.ball;
-    }
-  };
-  [[nodiscard]] std::int64_t key(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return (x * sizes_[1] + y) * sizes_[2] + z;
-  }
-  std::array<std::int64_t, 3> sizes_{};
-  std::vector<Entry> entries_;
-  std::vector<std::size_t> starts_;
-};
 
 /// A neighbour j hides the direction u of ball i if u . (x_j - x_i) > (R_i^2 + d^2 - R_j^2) / (2
 /// R_i).
@@ -102,7 +44,7 @@ void check(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& radii,
 template <typename Visit>
 void for_each_exposed(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& grown,
                       const Eigen::Matrix3Xd& points, int threads, const Visit& visit) {
-  const CellList cells(centres, 2.0 * grown.maxCoeff());
+  const detail::CellList cells(centres, 2.0 * grown.maxCoeff());
 
   const auto find_exposed = [&](int i, const std::vector<int>& around, std::vector<Cap>& caps,
                                 std::vector<Eigen::Index>& exposed) {
@@ -138,20 +80,24 @@ void for_each_exposed(const Eigen::Matrix3Xd& centres, const Eigen::VectorXd& gr
   };
 
   constexpr std::size_t kCellsPerTask = 32;
-  const std::size_t tasks = (cells.cells() + kCellsPerTask - 1) / kCellsPerTask;
+  const std::size_t tasks =
+      (static_cast<std::size_t>(cells.cells()) + kCellsPerTask - 1) / kCellsPerTask;
   parallel_for(tasks, threads, [&](std::size_t task, int) {
     std::vector<int> around;
     std::vector<Cap> caps;
     std::vector<Eigen::Index> exposed;
-    const std::size_t end = std::min(cells.cells(), (task + 1) * kCellsPerTask);
-    for (std::size_t cell = task * kCellsPerTask; cell < end; ++cell) {
+    const auto begin = static_cast<std::int32_t>(task * kCellsPerTask);
+    const std::int32_t end =
+        std::min(cells.cells(), begin + static_cast<std::int32_t>(kCellsPerTask));
+    for (std::int32_t cell = begin; cell < end; ++cell) {
       around.clear();
-      cells.for_each_around(cell, [&](int j) { around.push_back(j); });
-      cells.for_each_in(cell, [&](int i) {
-        if (!(grown[i] > 0.0)) return;
+      for (const std::int32_t c : cells.cells_around(cell))
+        around.insert(around.end(), cells.points_in(c).begin(), cells.points_in(c).end());
+      for (const std::int32_t i : cells.points_in(cell)) {
+        if (!(grown[i] > 0.0)) continue;
         find_exposed(i, around, caps, exposed);
         if (!exposed.empty()) visit(i, exposed);
-      });
+      }
     }
   });
 }

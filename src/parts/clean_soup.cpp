@@ -8,6 +8,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "core/cell_hash.hpp"
+
 namespace mortise::parts {
 namespace {
 
@@ -60,39 +62,28 @@ long merge_equal_points(Surface& surface) {
 
 long merge_near_points(Surface& surface, const std::vector<int>& candidates, double tolerance) {
   if (!(tolerance > 0.0) || candidates.empty()) return 0;
-  using Cell = std::array<std::int64_t, 3>;
-  std::map<Cell, std::vector<int>> cells;
   Eigen::Vector3d low = surface.points[static_cast<std::size_t>(candidates.front())];
   for (const int v : candidates) low = low.cwiseMin(surface.points[static_cast<std::size_t>(v)]);
-  const auto cell_of = [&](const Eigen::Vector3d& p) {
-    Cell cell;
-    for (int i = 0; i < 3; ++i)
-      cell[static_cast<std::size_t>(i)] =
-          static_cast<std::int64_t>(std::floor((p(i) - low(i)) / tolerance));
-    return cell;
-  };
+  detail::CellHash cells(tolerance, low);
   std::vector<int> image(surface.points.size());
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<int>(i);
   long merged = 0;
   for (const int v : candidates) {
     const Eigen::Vector3d& p = surface.points[static_cast<std::size_t>(v)];
-    const Cell home = cell_of(p);
     int nearest = -1;
     double nearest_distance = tolerance;
-    for (int n = 0; n < 27; ++n) {
-      const Cell cell = {home[0] + n % 3 - 1, home[1] + n / 3 % 3 - 1, home[2] + n / 9 - 1};
-      const auto found = cells.find(cell);
-      if (found == cells.end()) continue;
-      for (const int u : found->second) {
+    (void)cells.any_cell_around(p, [&](const std::vector<std::int32_t>& found) {
+      for (const std::int32_t u : found) {
         const double distance = (surface.points[static_cast<std::size_t>(u)] - p).norm();
         if (distance <= nearest_distance) {
           nearest = u;
           nearest_distance = distance;
         }
       }
-    }
+      return false;
+    });
     if (nearest < 0) {
-      cells[home].push_back(v);
+      cells.add(p, v);
     } else {
       image[static_cast<std::size_t>(v)] = nearest;
       ++merged;

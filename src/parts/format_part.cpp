@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STL and PLY bytes by hand, STEP bytes by the STEP module.
+// STL, PLY, OFF and OBJ bytes by hand, STEP bytes by the STEP module.
 #include "mortise/parts/format_part.hpp"
 
 #include <Eigen/Geometry>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -26,6 +27,18 @@ void put(std::string& bytes, Number value) {
 
 void put_single(std::string& bytes, const Eigen::Vector3d& v) {
   for (int i = 0; i < 3; ++i) put(bytes, static_cast<float>(v(i)));
+}
+
+// Three numbers with blanks between them.
+template <class Vector>
+void put_line(std::string& text, const char* head, const Vector& v) {
+  text += head;
+  for (int i = 0; i < 3; ++i) {
+    char number[32];
+    const auto end = std::to_chars(number, number + sizeof number, v(i)).ptr;
+    text.append(number, end);
+    text += i < 2 ? ' ' : '\n';
+  }
 }
 
 TriangleMesh moved(const TriangleMesh& mesh, const RigidMotion& motion) {
@@ -78,6 +91,22 @@ std::string format_ply(const TriangleMesh& mesh, const RigidMotion& motion) {
     for (int i = 0; i < 3; ++i) put(bytes, static_cast<std::int32_t>(t(i)));
   }
   return bytes;
+}
+
+std::string format_off(const TriangleMesh& mesh) {
+  std::string text =
+      "OFF\n" + std::to_string(mesh.vertices.cols()) + ' ' + std::to_string(mesh.size()) + " 0\n";
+  for (const auto p : mesh.vertices.colwise()) put_line(text, "", p);
+  for (const auto t : mesh.triangles.colwise()) put_line(text, "3 ", t);
+  return text;
+}
+
+std::string format_obj(const TriangleMesh& mesh) {
+  std::string text = "# by Mortise\n";
+  for (const auto p : mesh.vertices.colwise()) put_line(text, "v ", p);
+  for (const auto t : mesh.triangles.colwise())
+    put_line(text, "f ", Eigen::Vector3i(t.array() + 1));
+  return text;
 }
 
 std::string format_step(const TriangleMesh& mesh, const RigidMotion& motion,

@@ -45,7 +45,7 @@ TEST_F(PartPrograms, CollideAnswersYesNoAndBand) {
   std::ifstream csv(path("out.csv"));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(line, "pose,answer,by,gap,dx,dy,dz,ex,ey,ez");
+  EXPECT_EQ(line, "pose,answer,by,gap,dx,dy,dz,ex,ey,ez,modes");
   std::getline(csv, line);
   EXPECT_THAT(line, HasSubstr("1,yes,tree,"));
 }
@@ -58,6 +58,46 @@ TEST_F(PartPrograms, CollideOfMoleculesIsExact) {
   EXPECT_EQ(json["poses"][1]["answer"], "no");
   EXPECT_EQ(json["band"], 0.0);
   EXPECT_EQ(json["in_band"], 0);
+}
+
+// A molecule and a part, or balls of a file: any with any.
+TEST_F(PartPrograms, CollideTakesBodiesOfTwoKinds) {
+  must("decompose cube.obj -o cube.h5 --grid 16 --no-hausdorff");
+  const nlohmann::json balls =
+      this->json("collide cube.obj cube.h5 --poses poses.csv --grid 32 --modes 500");
+  EXPECT_EQ(balls["poses"][0]["answer"], "yes");
+  EXPECT_EQ(balls["poses"][1]["answer"], "no");
+  std::ofstream(path("atom.csv")) << "qw,qx,qy,qz,tx,ty,tz\n1,0,0,0,300,0,0\n";
+  const nlohmann::json molecule =
+      this->json("collide 1hpv_ligand.pdb cube.obj --poses atom.csv --modes 500");
+  EXPECT_EQ(molecule["poses"][0]["answer"], "no");
+}
+
+// The truncated sum alone never says what the trees deny, and stops early where bodies are far.
+TEST_F(PartPrograms, CollideByTheSumAlone) {
+  std::ofstream poses(path("line.csv"));
+  poses << "qw,qx,qy,qz,tx,ty,tz\n";
+  for (int i = 0; i < 60; ++i) poses << "1,0,0,0," << 0.05 * i << ",0.3,0\n";
+  poses.close();
+  const std::string command = "collide cube.obj cube.obj --poses line.csv --grid 32 --modes 4096 ";
+  const nlohmann::json trees = this->json(command);
+  const nlohmann::json sum = this->json(command + "--certificate sum");
+  EXPECT_EQ(sum["by_sum"], 60);
+  EXPECT_EQ(sum["yes"], 0);
+  EXPECT_GT(sum["no"], 5);
+  const double band = sum["sum_band"].get<double>();
+  int early = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto &by_sum = sum["poses"][i], &by_trees = trees["poses"][i];
+    if (by_sum["answer"] == "no") {
+      EXPECT_NE(by_trees["answer"], "yes") << i;
+    } else {
+      EXPECT_LE(0.05 * i - 1.0, band) << i;  // what is farther apart is told apart
+    }
+    early += by_sum["modes"].get<int>() < 4096 / 2 ? 1 : 0;
+  }
+  EXPECT_GT(early, 0);
+  EXPECT_LT(sum["mean_modes"].get<double>(), 4096.0);
 }
 
 // Its balls stand about places outside: plates like it were refused once.

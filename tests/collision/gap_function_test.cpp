@@ -210,93 +210,6 @@ TEST(GapFunction, SwappingTheBodiesInvertsThePose) {
   }
 }
 
-TEST(GapFunction, AbsoluteGradientsMeetDifferences) {
-  const Pair pair;
-  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 300});
-  std::mt19937_64 random(21);
-  const RigidMotion fixed{tests::random_rotation(random), {1.0, -4.0, 2.0}};
-  const RigidMotion moving = compose(fixed, pair.pose(random));
-  const auto value = [&](const RigidMotion& f, const RigidMotion& m) {
-    return gap.exact(compose(inverse(f), m)).value;
-  };
-  const AbsoluteGradients found =
-      absolute_gradients(gap.exact(compose(inverse(fixed), moving)), fixed, moving);
-  const double scale = found.moving.translation.norm() + found.moving.rotation.norm();
-  for (int d = 0; d < 3; ++d) {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(d);
-    const auto slope = [&](const auto& at) {
-      const double h = 1e-3;
-      return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-    };
-    const auto turned = [&](const RigidMotion& body, double h) {
-      RigidMotion result = body;
-      result.rotation = body.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(h, axis));
-      return result;
-    };
-    EXPECT_NEAR(found.moving.translation[d], slope([&](double h) {
-                  return value(fixed, nudged(moving, h * axis, {0, 0, 0}));
-                }),
-                1e-6 * scale);
-    EXPECT_NEAR(found.fixed.translation[d], slope([&](double h) {
-                  return value(nudged(fixed, h * axis, {0, 0, 0}), moving);
-                }),
-                1e-6 * scale);
-    EXPECT_NEAR(found.moving.rotation[d],
-                slope([&](double h) { return value(fixed, turned(moving, h)); }), 1e-6 * scale);
-    EXPECT_NEAR(found.fixed.rotation[d],
-                slope([&](double h) { return value(turned(fixed, h), moving); }), 1e-6 * scale);
-  }
-}
-
-TEST(GapFunction, HessianProductsMeetDifferencesOfTheGradient) {
-  for (const bool complex : {false, true}) {
-    const Pair pair(complex, 31);
-    const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 200});
-    std::mt19937_64 random(complex ? 8 : 9);
-    for (const double turning : {0.0, 1.0}) {
-      const RigidMotion pose = pair.pose(random);
-      const Eigen::Vector3d shift = Eigen::Vector3d(0.4, -0.7, 0.3),
-                            turn = turning * Eigen::Vector3d(-0.2, 0.15, 0.3);
-      const auto at = [&](double s) {
-        return gradient(gap.exact(nudged(pose, s * shift, s * turn)));
-      };
-      const double h = 2e-3;
-      const Eigen::Matrix<double, 6, 1> expected =
-          (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-      const GapProduct found = gap.exact_hessian_product(pose, shift, turn);
-      EXPECT_LT((found.translation - expected.head<3>()).norm(), 1e-6 * expected.head<3>().norm());
-      EXPECT_LT((found.rotation - expected.tail<3>()).norm(), 1e-6 * expected.tail<3>().norm());
-    }
-  }
-}
-
-TEST(GapFunction, FastHessianProductsAgreeWithTheExactOnes) {
-  const Pair pair(false, 5);
-  const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 4096});
-  std::mt19937_64 random(6);
-  double slope_error = 0.0, slope_scale = 0.0, spin_error = 0.0, spin_scale = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    const RigidMotion pose = pair.pose(random);
-    const Eigen::Vector3d shift = (i % 2) * Eigen::Vector3d(0.3, 0.1, -0.2),
-                          turn = (i % 3) * Eigen::Vector3d(0.1, 0.2, -0.1);
-    for (const int modes : {512, 4096}) {
-      const GapProduct fast = gap.hessian_product(pose, shift, turn, modes),
-                       exact = gap.exact_hessian_product(pose, shift, turn, modes);
-      slope_error = std::max(slope_error, (fast.translation - exact.translation).norm());
-      slope_scale = std::max(slope_scale, exact.translation.norm());
-      spin_error = std::max(spin_error, (fast.rotation - exact.rotation).norm());
-      spin_scale = std::max(spin_scale, exact.rotation.norm());
-    }
-  }
-  RecordProperty("slope_error", std::to_string(slope_error / slope_scale));
-  RecordProperty("spin_error", std::to_string(spin_error / spin_scale));
-  EXPECT_LT(slope_error, 5e-3 * slope_scale);
-  EXPECT_LT(spin_error, 2e-2 * spin_scale);
-  const GapProduct still =
-      gap.hessian_product({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
-  EXPECT_EQ(still.translation.norm() + still.rotation.norm(), 0.0);
-}
-
 TEST(GapFunction, BatchesAreTheSameForAnyThreads) {
   const Pair pair(true);
   const GapFunction gap(pair.fixed, pair.moving, {.max_modes = 1000});
@@ -310,27 +223,6 @@ TEST(GapFunction, BatchesAreTheSameForAnyThreads) {
     EXPECT_EQ(one[i].value, three[i].value);
     EXPECT_EQ(one[i].rotation_gradient, three[i].rotation_gradient);
   }
-}
-
-TEST(GapFunction, EnergyOrderConvergesFasterOnALongBody) {
-  Knots rod = random_knots(40, 4.0, {0, 0, 0}, 3);
-  rod.points.row(0) *= 0.1;
-  rod.points.row(1) *= 0.1;
-  rod.points.row(2) *= 2.0;
-  const BodyDensity fixed = density_of_knots(rod),
-                    moving = density_of_knots(random_knots(1, 0.1, {0, 0, 0}, 4));
-  const GapFunction reference(fixed, moving, {.max_modes = 20000});
-  const GapFunction near(fixed, moving, {.max_modes = 2000}),
-      strong(fixed, moving, {.max_modes = 2000, .order = ModeOrder::kEnergy});
-  std::mt19937_64 random(2);
-  double near_error = 0.0, strong_error = 0.0;
-  for (int i = 0; i < 50; ++i) {
-    const RigidMotion pose = random_pose({0, 0, 0}, {0, 0, 0}, 6.0, random);
-    const double expected = reference(pose).value;
-    near_error += std::pow(near(pose).value - expected, 2);
-    strong_error += std::pow(strong(pose).value - expected, 2);
-  }
-  EXPECT_LT(strong_error, near_error);
 }
 
 // Whatever is said to be below a threshold is so; and most of what is far below it is found out

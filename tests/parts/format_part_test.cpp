@@ -47,6 +47,17 @@ TEST(FormatPart, StlAndPlyComeBack) {
   EXPECT_EQ(format_stl(ball, motion).size(), 84U + 50U * static_cast<std::size_t>(ball.size()));
 }
 
+TEST(FormatPart, OffAndObjComeBackToTheBit) {
+  const TriangleMesh ball = shapes::noisy_sphere(3.0, 500);
+  const TemporaryFile off("x.off", format_off(ball));
+  const TemporaryFile obj("x.obj", format_obj(ball));
+  for (const std::string& path : {off.path(), obj.path()}) {
+    const ReadPartResult back = read_part(path);
+    EXPECT_EQ(back.mesh.triangles, ball.triangles);
+    EXPECT_EQ(back.mesh.vertices, ball.vertices);
+  }
+}
+
 TEST(FormatPart, StepOfAMeshComesBackInItsUnit) {
   const TriangleMesh two = shapes::join(shapes::icosphere(3.0, 2), [] {
     TriangleMesh cube = shapes::cube(2.0);

@@ -20,15 +20,15 @@ struct AssemblyOptions {
 
 /// What the moving part feels.
 struct Wrench {
-  double energy = 0.0;                              ///< in units of depth()
+  double energy = 0.0;                              ///< densities squared times volume
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< -dE/dt, fixed frame, per length unit
   Eigen::Vector3d torque =
       Eigen::Vector3d::Zero();  ///< about the moving part's origin, fixed frame
 };
 
-/// E(R, t) = -Re Int rho_fixed(x) rho_moving(R^T (x - t)) dx / depth from the m' modes of least
-/// |w|, with force and torque its gradient [HA, Eq. 7-12]; made once per pair of parts. Serves
-/// any number of threads, as long as none calls set_depth.
+/// E(R, t) = -Re Int rho_fixed(x) rho_moving(R^T (x - t)) dx from the m' modes of least |w|, with
+/// force and torque its gradient [HA, Eq. 7-12]; made once per pair of parts. Immutable; serves any
+/// number of threads.
 class AssemblySession {
  public:
   /// @throws InputError on bad densities or options
@@ -42,11 +42,6 @@ class AssemblySession {
   /// @throws InputError unless the motion is finite with a unit quaternion
   [[nodiscard]] Wrench wrench(const RigidMotion& moving_in_fixed, int modes = 0) const;
 
-  /// The unit of energy, 1 at first: give the depth of the mate's well and energies there are about
-  /// -1.
-  [[nodiscard]] double depth() const noexcept;
-  /// @throws InputError unless depth > 0
-  void set_depth(double depth);
   [[nodiscard]] int modes() const noexcept;
   [[nodiscard]] double moving_radius() const noexcept;  ///< of the ball around the moving part
   [[nodiscard]] const Eigen::Vector3d& moving_centre()

@@ -24,7 +24,8 @@ enum class DecidedBy { kTree, kSum };
 struct Collision {
   Contact contact = Contact::kBand;
   DecidedBy by = DecidedBy::kTree;
-  GapValue gap;  ///< of the bodies' densities, by ColliderOptions::modes; zero unless asked for
+  int modes = 0;  ///< of the sum, looked at before it was settled; 0 if the trees settled it
+  GapValue gap;   ///< of the bodies' densities, by ColliderOptions::modes; zero unless asked for
 };
 
 struct ColliderOptions {
@@ -42,7 +43,8 @@ struct ColliderOptions {
 /// [FC, Thm. 2] with that ball for U): nearly every answer is theirs. Where neither shows within
 /// the steps allowed, the gap function of the balls grown by x0, smoothed by a nonnegative kernel,
 /// is compared with what it is at least in every collision [FC, Lemma 2, Thm. 6], which tells
-/// bodies far apart from others. The sum takes seconds to make and is made when first
+/// bodies far apart from others; it stops as soon as a bound on the modes left out allows it
+/// (GapFunction::reject). The sum takes seconds to make and is made when first
 /// needed, by a pose or by a question below. Derivation in docs/math.md. Immutable; serves any
 /// number of threads.
 class Collider {

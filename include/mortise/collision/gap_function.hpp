@@ -13,18 +13,11 @@
 
 namespace mortise {
 
-/// What the retained modes are; modes w and -w come together.
-enum class ModeOrder {
-  kDistance,  ///< the m' with the least |w|
-  kEnergy,    ///< the m' with the largest |F(w)| times root mean square of |G| on w's shell
-};
-
 struct GapOptions {
-  int max_modes = 4096;  ///< modes kept, w and -w counted as two; >= 1
+  int max_modes = 4096;  ///< modes kept, those of least |w|, w and -w counted as two; >= 1
   double box = 0.0;      ///< period L, length unit; 0 = the least: twice the sum of the radii
   double oversampling =
       2.0;  ///< samples of the moving body's spectrum per Nyquist interval; 1.5 to 4
-  ModeOrder order = ModeOrder::kDistance;
   /// Multiplies the product of the spectra: the instrument kernel K^(w) [FC, Eq. 28]; empty = 1.
   std::function<double(const Eigen::Vector3d& w)> window = {};
   int threads = 0;  ///< for the making; 0 = all cores; never changes the result
@@ -38,12 +31,6 @@ struct GapValue {
   /// d V / d e at e = 0 of the pose with rotation exp([e]x) R and the same t: a torque about the
   /// moving body's origin, fixed frame.
   Eigen::Vector3d rotation_gradient = Eigen::Vector3d::Zero();
-};
-
-/// How the gradient changes along a direction of SE(3): a Hessian times a vector.
-struct GapProduct {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< d / ds of translation_gradient
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< d / ds of rotation_gradient
 };
 
 /// V(R, t) = Re Int rho_fixed(x) rho_moving(R^T (x - t)) dx, smoothed by the window [FC, Eq. 30-32;
@@ -74,20 +61,6 @@ class GapFunction {
   /// The same in double precision, the moving spectrum summed term by term: the reference. Time
   /// O(modes N), N points of the moving density.
   [[nodiscard]] GapValue exact(const RigidMotion& moving_in_fixed, int modes = 0) const;
-
-  /// d / ds of the gradient at s = 0 of the poses (exp(s [rotation]x) R, t + s translation). Away
-  /// from a stationary point the rotations' block is not symmetric: turns do not commute.
-  /// By a central difference of the fast gradient, whose step suits the modes: twice its time; off
-  /// by about 1% of the largest.
-  [[nodiscard]] GapProduct hessian_product(const RigidMotion& moving_in_fixed,
-                                           const Eigen::Vector3d& translation,
-                                           const Eigen::Vector3d& rotation, int modes = 0) const;
-  /// The same from the sum's second derivatives, in double precision and term by term: the
-  /// reference.
-  [[nodiscard]] GapProduct exact_hessian_product(const RigidMotion& moving_in_fixed,
-                                                 const Eigen::Vector3d& translation,
-                                                 const Eigen::Vector3d& rotation,
-                                                 int modes = 0) const;
 
   [[nodiscard]] int modes() const noexcept;         ///< modes kept, <= max_modes
   [[nodiscard]] double box() const noexcept;        ///< L
@@ -121,20 +94,5 @@ class GapFunction {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// The gradient with respect to one body's own pose in the world.
-struct AbsoluteGradient {
-  Eigen::Vector3d translation;  ///< d V / d x, world frame
-  Eigen::Vector3d rotation;     ///< d V / d e, rotation R exp([e]x), the body's own frame
-};
-struct AbsoluteGradients {
-  AbsoluteGradient fixed, moving;
-};
-
-/// [FC, Cor. 4]: the gradient with respect to both bodies' poses from the one with respect to their
-/// relative pose, inverse(fixed_in_world) moving_in_world.
-[[nodiscard]] AbsoluteGradients absolute_gradients(const GapValue& value,
-                                                   const RigidMotion& fixed_in_world,
-                                                   const RigidMotion& moving_in_world);
 
 }  // namespace mortise

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Minkowski sums, obstacles and sweeps of unions of balls: again unions of balls.
+/// Minkowski sums and obstacles of unions of balls: again unions of balls.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <vector>
-
-#include "mortise/core/rigid_motion.hpp"
 
 namespace mortise {
 
@@ -39,13 +36,6 @@ struct MinkowskiOptions {
                                            const Eigen::Matrix4Xd& moving,
                                            const Eigen::Quaterniond& rotation,
                                            const MinkowskiOptions& options = {});
-
-/// The space that a body sweeps at the given motions: the union of its moved balls [SD, Sec. 4.3].
-/// Between two motions that move no point by more than d, everything swept lies within d / 2 of it.
-/// @return 4 x (motions * N)
-[[nodiscard]] Balls swept_balls(const Eigen::Matrix4Xd& body,
-                                const std::vector<RigidMotion>& motions,
-                                const MinkowskiOptions& options = {});
 
 /// The balls without those that lie inside another one: the same union with fewer of them.
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Parts, moved or not, as the bytes of STL, PLY and STEP files.
+/// Parts, moved or not, as the bytes of STL, PLY, OFF, OBJ and STEP files.
 #pragma once
 
 #include <string>
@@ -20,6 +20,11 @@ inline constexpr Eigen::Index kMostStepTriangles = 50000;
 /// A binary little-endian PLY file of the mesh moved by `motion`, double precision, vertices shared
 /// and in the same order.
 [[nodiscard]] std::string format_ply(const TriangleMesh& mesh, const RigidMotion& motion = {});
+
+/// OFF and OBJ text of the mesh, vertices shared and in the same order. Numbers are the shortest
+/// that read back to the same bits.
+[[nodiscard]] std::string format_off(const TriangleMesh& mesh);
+[[nodiscard]] std::string format_obj(const TriangleMesh& mesh);
 
 /// A STEP file (AP214) with one plane face per triangle, moved by `motion`.
 /// @param unit  "mm", "cm", "m", "in", ...: the unit of the coordinates
