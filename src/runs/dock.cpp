@@ -2,6 +2,7 @@
 // Docking: what is searched, and how candidates become poses.
 #include "mortise/runs/dock.hpp"
 
+#include <map>
 #include <memory>
 
 #include "mortise/core/errors.hpp"
@@ -37,6 +38,31 @@ ContactPotential potential_of(const DockOptions& options) {
                                    : read_contact_potential(options.potential, kContactTypes);
 }
 
+// The fixed body's terms of the shape score, for knots of any radii. The channel's weights are i w,
+// so that a pair counts -w w'.
+ShapeTerms fixed_terms(const ShapeKernels& kernels, const Knots& knots, double factor) {
+  ShapeTerms terms{
+      knots.points.topRows<3>(), -factor * knots.weights.real(), Eigen::VectorXi(knots.size()), {}};
+  std::map<double, int> index;
+  for (const double r : knots.points.row(3)) index.emplace(r, 0);
+  int next = 0;
+  for (auto& [radius, i] : index) i = next++;
+  for (Eigen::Index k = 0; k < knots.size(); ++k) terms.kernel_of[k] = index.at(knots.points(3, k));
+  for (int q = 0; q < kernels.terms(); ++q) {
+    std::vector<TabulatedKernel>& of_radius = terms.kernels.emplace_back();
+    for (const auto& [radius, i] : index) of_radius.push_back(kernels.kernel(radius, q));
+  }
+  return terms;
+}
+
+// What each moving knot weighs in these terms: Q x N.
+Eigen::MatrixXd moving_weights(const ShapeKernels& kernels, const Knots& knots) {
+  Eigen::MatrixXd weights(kernels.terms(), knots.size());
+  for (Eigen::Index j = 0; j < knots.size(); ++j)
+    weights.col(j) = knots.weights[j].real() * kernels.moving_factors(knots.points(3, j));
+  return weights;
+}
+
 // Contact and shape by maps of the fixed body. Polish needs the shape's map too.
 std::shared_ptr<const MapScorer> map_scorer(const Body& fixed, const Body& moving,
                                             const Channel& shape, const SearchPlan& plan,
@@ -53,16 +79,13 @@ std::shared_ptr<const MapScorer> map_scorer(const Body& fixed, const Body& movin
     return std::make_shared<MapScorer>(
         std::make_shared<ScoreMaps>(fixed_points, potential, map_options),
         PlacedPoints(moving_points));
-  const TabulatedKernel kernel =
-      shape_kernel(shape, options.radius, options.radius, {.cutoff = options.search.cutoff});
-  // The channel's weights are i w, so that a pair counts -w w'.
-  const Knots& knots = plan.fixed.knots;
-  auto maps = std::make_shared<ScoreMaps>(
-      fixed_points, potential,
-      shape_terms(knots.points.topRows<3>(), -potential.shape * knots.weights.real(), kernel),
-      map_options);
+  const ShapeKernels kernels(shape, {.low_pass = {.cutoff = options.search.cutoff},
+                                     .radius_tolerance = options.search.radius_tolerance});
+  auto maps = std::make_shared<ScoreMaps>(fixed_points, potential,
+                                          fixed_terms(kernels, plan.fixed.knots, potential.shape),
+                                          map_options);
   PlacedPoints placed(moving_points, plan.moving.knots.points.topRows<3>(),
-                      plan.moving.knots.weights.real().transpose());
+                      moving_weights(kernels, plan.moving.knots));
   return std::make_shared<MapScorer>(std::move(maps), std::move(placed));
 }
 
@@ -100,9 +123,6 @@ std::vector<Stage> stages_of(const std::shared_ptr<const MapScorer>& scorer, con
 
 SearchPlan plan_dock(const Body& receptor, const Body& ligand, const DockOptions& options) {
   check_options("dock", dock_option_rows(), options);
-  if (options.polish && (options.radius == 0.0 || options.merge_buried > 0.0))
-    throw InputError(
-        "dock: polish needs atoms of one radius; with radius 0 or merge_buried leave it out");
   SearchPlan plan;
   plan.kind = "dock";
   plan.options = to_json(options);

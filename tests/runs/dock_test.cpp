@@ -14,6 +14,7 @@
 #include "mortise/molecules/radii.hpp"
 #include "mortise/scoring/contact_potential.hpp"
 #include "mortise/scoring/score_maps.hpp"
+#include "mortise/scoring/shape_scores.hpp"
 
 namespace mortise {
 namespace {
@@ -125,6 +126,34 @@ TEST(Docking, TakesRadiiByTypeAndMergedAtoms) {
   EXPECT_FALSE(Ranked(fixed, moving, options).list.poses.empty());
 }
 
+// With atoms' own radii, and with merged ones, polish climbs the score that the search has: the
+// low-passed one of all radii, here from maps of another kind.
+TEST(Docking, PolishClimbsTheScoreOfBallsOfEverySize) {
+  const Molecule fixed = blob(700, 3), moving = blob(500, 4);
+  for (const double merge : {0.0, 4.5}) {
+    DockOptions options = quick();
+    options.rescore = false;
+    options.radius = 0.0;
+    options.double_skin.penalty_radius = 1.8;
+    options.merge_buried = merge;
+    options.cluster_radius = 0.0;
+    const SearchPlan plan = plan_dock(fixed, moving, options);
+    RotationSearch search = make_search(plan);
+    ASSERT_TRUE(search.run());
+    std::vector<RigidMotion> starts;
+    for (const Candidate& c : search.candidates()) starts.push_back(search.moving_in_fixed(c));
+    starts.resize(60);
+    const std::vector<RigidMotion> ends = plan.stages.back().move(starts, 1);
+    const LowPassedScoresOptions low_passed{.low_pass = {.cutoff = options.search.cutoff}};
+    const Eigen::MatrixXd before = low_passed_scores(plan.channels[0], starts, low_passed);
+    const Eigen::MatrixXd after = low_passed_scores(plan.channels[0], ends, low_passed);
+    const double scale = before.cwiseAbs().mean();
+    EXPECT_GT((after - before).mean(), 0.1 * scale) << merge;
+    // Maps at 1 A linear between nodes and these differ by some percent: hardly any may fall.
+    EXPECT_GT((after - before).minCoeff(), -0.1 * scale) << merge;
+  }
+}
+
 TEST(Docking, PolishMovesPosesUphillAndKeepsTheirScores) {
   const Molecule fixed = blob(300, 1), moving = blob(150, 2);
   const PoseDistance distance(atom_positions(moving));
@@ -169,8 +198,6 @@ TEST(DockOptions, PresetsAndTheirErrors) {
   };
   refused([](DockOptions& o) { o.rotations = 0; });
   refused([](DockOptions& o) { o.radius = -1.0; });
-  refused([](DockOptions& o) { o.radius = 0.0; });  // with polish
-  refused([](DockOptions& o) { o.merge_buried = 4.0; });
   refused([](DockOptions& o) { o.merge_buried = -4.0; });
   refused([](DockOptions& o) { o.poses = 0; });
   refused([](DockOptions& o) { o.cluster_radius = -1.0; });
