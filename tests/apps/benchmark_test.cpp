@@ -28,7 +28,7 @@ class Benchmark : public testing::Program {
   Benchmark() {
     fs::create_directory(scratch_ / "data");
     for (const char* file : {"1hpv_receptor.pdb", "1hpv_ligand.pdb", "1hpv_complex.pdb"})
-      fs::rename(scratch_ / file, scratch_ / "data" / file);
+      fs::rename(path(file), path(std::string("data/") + file));
     write_table(std::string("HPV1,0.0,") + kFiles + "HPV2,2.5," + kFiles + "\nHPV3,1.5," + kFiles);
   }
 

@@ -14,18 +14,18 @@
 namespace mortise {
 namespace {
 
-using Complex = std::complex<float>;
+using Cfloat = std::complex<float>;
 
 // Relative rms error against sums in double precision, of the columns of one transform.
 double error_of(int n, bool forward, int in_count, int columns, bool in_place) {
   std::mt19937 random(static_cast<unsigned>(n));
   std::uniform_real_distribution<float> number(-1.0F, 1.0F);
   const int in_stride = columns + 8, out_stride = in_place ? in_stride : columns + 16;
-  AlignedVector<Complex> in(static_cast<std::size_t>(n) * in_stride);
-  for (Complex& c : in) c = {number(random), number(random)};
-  const AlignedVector<Complex> before = in;
-  AlignedVector<Complex> apart(static_cast<std::size_t>(n) * out_stride, Complex(7.0F, 7.0F));
-  AlignedVector<Complex>& out = in_place ? in : apart;
+  AlignedVector<Cfloat> in(static_cast<std::size_t>(n) * in_stride);
+  for (Cfloat& c : in) c = {number(random), number(random)};
+  const AlignedVector<Cfloat> before = in;
+  AlignedVector<Cfloat> apart(static_cast<std::size_t>(n) * out_stride, Cfloat(7.0F, 7.0F));
+  AlignedVector<Cfloat>& out = in_place ? in : apart;
   const LaneFft fft(n);
   LaneFft::Work work = fft.make_work();
   fft.run(forward, in.data(), in_stride, in_count, out.data(), out_stride, columns, work);
@@ -41,8 +41,7 @@ double error_of(int n, bool forward, int in_count, int columns, bool in_place) {
       size += std::norm(sum);
     }
     for (int c = columns; c < out_stride; ++c) {  // what lies between the columns is left alone
-      EXPECT_EQ(out[k * out_stride + c],
-                in_place ? before[k * in_stride + c] : Complex(7.0F, 7.0F));
+      EXPECT_EQ(out[k * out_stride + c], in_place ? before[k * in_stride + c] : Cfloat(7.0F, 7.0F));
     }
   }
   return std::sqrt(error / size);
@@ -68,7 +67,7 @@ TEST(LaneFft, RowsAreThoseOfTheReferenceBothWays) {
       const int nc = n / 2 + 1, stride = n + 3, columns = (nc + 7) / 8 * 8;
       AlignedVector<float> in(static_cast<std::size_t>(rows) * stride);
       for (float& x : in) x = number(random);
-      AlignedVector<Complex> out(static_cast<std::size_t>(rows) * columns),
+      AlignedVector<Cfloat> out(static_cast<std::size_t>(rows) * columns),
           expected(static_cast<std::size_t>(rows) * columns);
       const LaneFft fft(n);
       LaneFft::Work work = fft.make_work();
@@ -86,14 +85,16 @@ TEST(LaneFft, RowsAreThoseOfTheReferenceBothWays) {
       };
       EXPECT_LT(error(out, expected, nc, columns), 5e-7) << n << " " << rows;
 
-      for (Complex& c : out) c = {number(random), number(random)};
+      for (Cfloat& c : out) c = {number(random), number(random)};
       AlignedVector<float> back(in.size(), 7.0F), back_expected(in.size(), 7.0F);
       fft.backward_rows(out.data(), columns, rows, back.data(), stride, work);
       FftPlan<float>::complex_to_real({{{n, 1, 1}}, {{rows, columns, stride}}}, false)
           .run(out.data(), back_expected.data());
       EXPECT_LT(error(back, back_expected, n, stride), 5e-7) << n << " " << rows;
       for (std::size_t i = 0; i < back.size(); ++i) {
-        if (static_cast<int>(i) % stride >= n) EXPECT_EQ(back[i], 7.0F);
+        if (static_cast<int>(i) % stride >= n) {
+          EXPECT_EQ(back[i], 7.0F);
+        }
       }
     }
 }
@@ -101,9 +102,9 @@ TEST(LaneFft, RowsAreThoseOfTheReferenceBothWays) {
 TEST(LaneFft, NothingInNothingOut) {
   const LaneFft fft(36);
   LaneFft::Work work = fft.make_work();
-  AlignedVector<Complex> data(36 * 8, Complex(1.0F, 1.0F));
+  AlignedVector<Cfloat> data(36 * 8, Cfloat(1.0F, 1.0F));
   fft.run(true, data.data(), 8, 0, data.data(), 8, 8, work);
-  for (const Complex& c : data) EXPECT_EQ(c, Complex());
+  for (const Cfloat& c : data) EXPECT_EQ(c, Cfloat());
 }
 
 TEST(LaneFft, RefusesOtherSizes) {

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "metrics/bodies.hpp"
-#include "metrics/nearest_point.hpp"
+#include "core/nearest_point.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "mortise/molecules/read_molecule.hpp"

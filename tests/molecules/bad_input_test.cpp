@@ -13,8 +13,8 @@ namespace {
 using test::backbone;
 using test::pdb_line;
 using test::TemporaryFile;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string error_of(const std::string& spec) {
   try {
