@@ -77,7 +77,7 @@ TEST_F(PartPrograms, CollideTakesBodiesOfTwoKinds) {
 TEST_F(PartPrograms, CollideByTheSumAlone) {
   std::ofstream poses(path("line.csv"));
   poses << "qw,qx,qy,qz,tx,ty,tz\n";
-  for (int i = 0; i < 60; ++i) poses << "1,0,0,0," << 0.05 * i << ",0.3,0\n";
+  for (int i = 0; i < 60; ++i) poses << "1,0,0,0," << 0.1 * i << ",0.3,0\n";
   poses.close();
   const std::string command = "collide cube.obj cube.obj --poses line.csv --grid 32 --modes 4096 ";
   const nlohmann::json trees = this->json(command);
@@ -92,7 +92,7 @@ TEST_F(PartPrograms, CollideByTheSumAlone) {
     if (by_sum["answer"] == "no") {
       EXPECT_NE(by_trees["answer"], "yes") << i;
     } else {
-      EXPECT_LE(0.05 * i - 1.0, band) << i;  // what is farther apart is told apart
+      EXPECT_LE(0.1 * i - 1.0, band) << i;  // what is farther apart is told apart
     }
     early += by_sum["modes"].get<int>() < 4096 / 2 ? 1 : 0;
   }

@@ -11,8 +11,8 @@
 #include <map>
 #include <numbers>
 
-#include "metrics/bodies.hpp"
 #include "core/nearest_point.hpp"
+#include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
 #include "mortise/molecules/read_molecule.hpp"

