@@ -11,6 +11,7 @@
 #include <deque>
 #include <memory>
 
+#include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 
@@ -105,7 +106,6 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 
 std::function<bool(std::size_t, std::size_t)> make_progress(const std::string& label,
                                                             const CommonOptions& options) {
-  using Clock = std::chrono::steady_clock;
   if (options.quiet || isatty(STDERR_FILENO) == 0)
     return [](std::size_t, std::size_t) { return !interrupted(); };
   struct State {
