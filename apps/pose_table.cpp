@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "mortise/metrics/quality.hpp"
 
@@ -38,13 +39,22 @@ int metric_width(const MetricColumn& metric) {
   return std::max(10, static_cast<int>(metric.name.size()));
 }
 
+// What a person compares poses by. What the shape score leaves out is for the page and for tables.
+std::vector<const MetricColumn*> shown_metrics(const Run& run) {
+  std::vector<const MetricColumn*> shown;
+  for (const MetricColumn& metric : run.metrics)
+    if (!metric.name.starts_with("shape_")) shown.push_back(&metric);
+  return shown;
+}
+
 }  // namespace
 
 std::string pose_table(const Run& run, std::size_t count) {
+  const std::vector<const MetricColumn*> metrics = shown_metrics(run);
   std::string text = "  rank" + head("score", 12);
   for (const std::string& channel : run.poses.channel_names) text += head(channel, 12);
-  for (const MetricColumn& metric : run.metrics) text += head(metric.name, metric_width(metric));
-  if (run.metrics.empty())
+  for (const MetricColumn* metric : metrics) text += head(metric->name, metric_width(*metric));
+  if (metrics.empty())
     text += std::string("   quaternion w x y z                    translation x y z") +
             (run.kind == "dock" ? ", angstrom" : "");
   text += "\n";
@@ -52,9 +62,9 @@ std::string pose_table(const Run& run, std::size_t count) {
     const Pose& pose = run.poses.poses[i];
     text += cell(static_cast<double>(i + 1), 5, 0) + cell(pose.score, 12, 3);
     for (const double channel : pose.channels) text += cell(channel, 12, 3);
-    for (const MetricColumn& metric : run.metrics)
-      text += metric_cell(metric, i, metric_width(metric));
-    if (run.metrics.empty()) {
+    for (const MetricColumn* metric : metrics)
+      text += metric_cell(*metric, i, metric_width(*metric));
+    if (metrics.empty()) {
       const Eigen::Quaterniond& q = pose.moving_in_fixed.rotation;
       text += " ";
       for (const double value : {q.w(), q.x(), q.y(), q.z()}) text += cell(value, 8, 5);
