@@ -45,12 +45,10 @@ constexpr Row kRows[] = {
      "Radius at which the penalty holds, angstrom; at others core and skin keep the ratio of their "
      "volumes; 0 = one penalty for all",
      Row::Real([](O& o) -> double& { return o.double_skin.penalty_radius; }), 0.0, 1e6},
-    {"radius", kSearch,
-     "Radius of every heavy atom, angstrom; 0 = by its type (united atoms; needs --no-polish)",
+    {"radius", kSearch, "Radius of every heavy atom, angstrom; 0 = by its type (united atoms)",
      Row::Real([](O& o) -> double& { return o.radius; }), 0.0, 100.0},
     {"merge_buried", kSearch,
-     "Merge buried atoms into balls up to this radius, angstrom; 0 = one ball per atom (needs "
-     "--no-polish)",
+     "Merge buried atoms into balls up to this radius, angstrom; 0 = one ball per atom",
      Row::Real([](O& o) -> double& { return o.merge_buried; }), 0.0, 100.0},
     {"propensity", kSearch, "Strength of the residues' interface propensities",
      Row::Real([](O& o) -> double& { return o.propensity; }), 0.0, 2.0},

@@ -33,8 +33,7 @@ struct DockOptions {
   std::string potential =
       {};              ///< file of the contact potential; empty = fitted_contact_potential()
   bool polish = true;  ///< move the best poses uphill on their score (polish.hpp); those that come
-                       ///< within the cluster radius of a better one are dropped. Needs atoms of
-                       ///< one radius
+                       ///< within the cluster radius of a better one are dropped
   int poses = 2000;    ///< poses reported, at most; >= 1
   double cluster_radius =
       3.0;  ///< poses whose ligand RMSD to a better one is below are dropped, angstrom; 0 = none
