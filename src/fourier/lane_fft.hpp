@@ -3,6 +3,7 @@
 /// Transforms of the axes of a grid, many columns or rows side by side.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <vector>
@@ -48,7 +49,7 @@ class LaneFft {
 
   int n_ = 0;
   std::vector<int> radices_ = {};
-  std::vector<std::vector<float>> twiddles_[2] = {};  // backward, forward: of each pass
+  std::array<std::vector<std::vector<float>>, 2> twiddles_ = {};  // backward, forward: of each pass
   const LaneFftTable* table_ = nullptr;
 };
 

@@ -80,7 +80,7 @@ TriangleMesh surface_net(const DistanceGrid& grid) {
     throw InputError("surface_net: expected " + std::to_string(grid.count()) + " values, got " +
                      std::to_string(grid.values.size()));
   const Bordered nodes(grid);
-  const Eigen::Array3i size = nodes.size();
+  const Eigen::Array3i& size = nodes.size();
   std::vector<std::int32_t> vertex_of(nodes.index({size[0], 0, 0}), -1);
   std::vector<Eigen::Vector3d> vertices;
   for (int i = 0; i + 1 < size[0]; ++i)

@@ -84,9 +84,12 @@ template <int Scale>
   reinterpret_cast<__m256i&>(v) = _mm256_i32gather_epi32(
       static_cast<const int*>(base), reinterpret_cast<const __m256i&>(at), Scale);
 #else
-  for (int l = 0; l < kLanes; ++l)
+  for (int l = 0; l < kLanes; ++l) {
+    int bits;
     __builtin_memcpy(
-        &v[l], static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(Scale) * at[l], 4);
+        &bits, static_cast<const char*>(base) + static_cast<std::ptrdiff_t>(Scale) * at[l], 4);
+    v[l] = bits;
+  }
 #endif
   return v;
 }

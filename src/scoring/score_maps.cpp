@@ -165,10 +165,10 @@ Eigen::VectorXd ScoreMaps::contact_scores(const PlacedPoints& moving,
   check(moving);
   Eigen::VectorXd scores(static_cast<Eigen::Index>(poses.size()));
   const std::vector<std::size_t> order = detail::by_place(poses, moving.centre);
-  constexpr std::size_t kPiece = 256;  // large enough that handing them out costs nothing
-  parallel_for((poses.size() + kPiece - 1) / kPiece, threads, [&](std::size_t piece, int) {
-    const std::size_t end = std::min(poses.size(), (piece + 1) * kPiece);
-    for (std::size_t i = piece * kPiece; i < end; ++i)
+  constexpr std::size_t kAtOnce = 256;  // large enough that handing them out costs nothing
+  parallel_for((poses.size() + kAtOnce - 1) / kAtOnce, threads, [&](std::size_t piece, int) {
+    const std::size_t end = std::min(poses.size(), (piece + 1) * kAtOnce);
+    for (std::size_t i = piece * kAtOnce; i < end; ++i)
       scores[static_cast<Eigen::Index>(order[i])] = contact_score(moving, poses[order[i]]);
   });
   return scores;
