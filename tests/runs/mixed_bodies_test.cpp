@@ -84,7 +84,7 @@ TEST(MixedBodies, BallsAreAPartWithTheSurfaceOfTheirUnion) {
 }
 
 // The sample ball, as the mesh it is stored as and as the one ball that it is.
-TEST(MixedBodies, ABallMatesAsItsMeshDoes) {
+TEST(MixedBodiesSlow, ABallMatesAsItsMeshDoes) {
   const Body cup = sample("parts/ball_cup_exact.stl");
   const Body mesh = sample("parts/ball.stl");
   const Eigen::AlignedBox3d box = mesh.part()->solid->bounds();
