@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mortise assemble: energy, force and torque along a path at a fixed rate, or a part let go.
+// mortise assemble: energy, force and torque along a path at a fixed rate, or a body let go.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assembly_loop.hpp"
+#include "ball_body.hpp"
 #include "clock.hpp"
 #include "commands.hpp"
 #include "line_plot.hpp"
@@ -18,9 +19,10 @@
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/mesh_solid.hpp"
-#include "mortise/parts/read_part.hpp"
+#include "mortise/runs/body_forms.hpp"
 #include "mortise/runs/let_go.hpp"
 #include "mortise/store/atomic_file.hpp"
+#include "mortise/store/body.hpp"
 #include "output_guard.hpp"
 #include "pose_csv.hpp"
 
@@ -54,7 +56,8 @@ void check_flags(const AssembleFlags& options) {
   for (const std::string& output : {options.output, options.plot, options.write_path}) {
     if (output.empty()) continue;
     check_output_file(output,
-                      {options.fixed, options.moving, options.path, options.goal, options.mates},
+                      {body_path(options.fixed), body_path(options.moving), options.path,
+                       options.goal, options.mates},
                       true, "");
   }
 }
@@ -62,49 +65,59 @@ void check_flags(const AssembleFlags& options) {
 struct Session {
   AssemblySession session;
   double seconds;
+  std::string fixed_size, moving_size;  // as people count them: triangles, atoms, balls
   long fixed_triangles;
   TriangleMesh moving;
 };
 
-Session make_session(const AssembleFlags& options) {
-  const auto start = Clock::now();
-  const ReadPartResult fixed = read_part(options.fixed);
-  ReadPartResult moving = read_part(options.moving);
-  const MeshSolidOptions solid{.threads = options.common.threads};
-  const MeshSolid first(fixed.mesh, solid), second(moving.mesh, solid);
-  const auto tell = [&](const std::string& name, const ReadPartResult& part) {
-    if (options.common.quiet) return;
-    for (const std::string& decision : part.decisions)
-      std::fprintf(stderr, "mortise: %s: %s\n", name.c_str(), decision.c_str());
-  };
-  tell(options.fixed, fixed);
-  tell(options.moving, moving);
-  const double thickness = options.field.thickness > 0.0
-                               ? options.field.thickness
-                               : std::min(default_thickness(first), default_thickness(second));
-  const auto density = [&](const MeshSolid& part) {
-    stop_if_interrupted("nothing was written");
-    if (options.field_kind == "skeletal")
-      return skeletal_field(part, {.grid = options.field.grid,
-                                   .margin = thickness,
+// The skeleton is known of a surface of triangles: of balls that is the mesh of their union.
+BodyDensity skeletal_density_of(const Part& part, double margin, const AssembleFlags& options) {
+  const SkeletalFieldOptions field{.grid = options.field.grid,
+                                   .margin = margin,
                                    .sigma = options.sigma,
                                    .penalty = options.field.penalty,
-                                   .threads = options.common.threads});
+                                   .threads = options.common.threads};
+  if (const auto* solid = dynamic_cast<const MeshSolid*>(part.solid.get()))
+    return skeletal_field(*solid, field);
+  return skeletal_field(MeshSolid(part.mesh, {.threads = options.common.threads}), field);
+}
+
+Session make_session(const AssembleFlags& options) {
+  const auto start = Clock::now();
+  const Body fixed_body = read_body(options.fixed, {.threads = options.common.threads});
+  const Body moving_body = read_body(options.moving, {.threads = options.common.threads});
+  for (const Body* body : {&fixed_body, &moving_body})
+    if (body->part() != nullptr && !options.common.quiet)
+      for (const std::string& decision : body->decisions)
+        std::fprintf(stderr, "mortise: %s: %s\n", body->record.spec.c_str(), decision.c_str());
+  const Part fixed = body_part(fixed_body), moving = body_part(moving_body);
+  const double thickness =
+      options.field.thickness > 0.0
+          ? options.field.thickness
+          : std::min(default_thickness(*fixed.solid), default_thickness(*moving.solid));
+  const auto density = [&](const Part& part) {
+    stop_if_interrupted("nothing was written");
+    if (options.field_kind == "skeletal") return skeletal_density_of(part, thickness, options);
     PartFieldOptions field = options.field;
     field.thickness = thickness;
-    return double_skin_field(part, field);
+    return double_skin_field(*part.solid, field);
   };
-  AssemblySession session(density(first), density(second), options.assembly);
-  return {std::move(session), seconds_since(start), static_cast<long>(fixed.mesh.size()),
-          std::move(moving.mesh)};
+  AssemblySession session(density(fixed), density(moving), options.assembly);
+  return {std::move(session),
+          seconds_since(start),
+          size_text(fixed_body),
+          size_text(moving_body),
+          static_cast<long>(fixed.mesh.size()),
+          moving.mesh};
 }
 
 // Where the part belongs: of a truth file with its symmetries, of a table of poses the first.
 TrueMate goal_of(const AssembleFlags& options) {
   if (!options.mates.empty())
     return find_true_mate(read_true_mates(options.mates),
-                          std::filesystem::path(options.fixed).stem().string(),
-                          std::filesystem::path(options.moving).stem().string(), options.pair);
+                          std::filesystem::path(body_path(options.fixed)).stem().string(),
+                          std::filesystem::path(body_path(options.moving)).stem().string(),
+                          options.pair);
   const std::vector<RigidMotion> goals = read_pose_csv(options.goal);
   if (goals.empty()) throw FileError(options.goal, "holds no pose");
   TrueMate mate;
@@ -150,8 +163,8 @@ void follow_path(const AssembleFlags& options, const Session& made) {
     return;
   }
   if (options.common.quiet) return;
-  std::printf("parts        %ld and %ld triangles, prepared in %.1f s\n", made.fixed_triangles,
-              static_cast<long>(made.moving.size()), made.seconds);
+  std::printf("bodies       %s and %s, prepared in %.1f s\n", made.fixed_size.c_str(),
+              made.moving_size.c_str(), made.seconds);
   std::printf("path         %zu steps at %g Hz, m' = %d modes\n", path.size(), options.rate,
               made.session.modes());
   std::printf("us per step  median    99%%  99.9%%  largest\n");
@@ -213,9 +226,13 @@ void run(AssembleFlags options) {
 void add_assemble(CLI::App& program) {
   auto options = std::make_shared<AssembleFlags>();
   CLI::App* command = program.add_subcommand(
-      "assemble", "Energy, force and torque of two parts along a path at haptic rate");
-  command->add_option("fixed", options->fixed, "Part (mesh, STEP)")->required();
-  command->add_option("moving", options->moving, "Part that the path moves")->required();
+      "assemble", "Energy, force and torque of two bodies along a path at haptic rate");
+  command
+      ->add_option("fixed", options->fixed,
+                   "Part (mesh, STEP), balls (.xyzr, decompose's file) or molecule (PDB, mmCIF)")
+      ->required();
+  command->add_option("moving", options->moving, "The body that the path moves, of any kind")
+      ->required();
   command->add_option("--path", options->path,
                       "CSV with columns qw, qx, qy, qz, tx, ty, tz: one pose per step");
   command->add_option(
@@ -244,13 +261,13 @@ void add_assemble(CLI::App& program) {
       ->add_option("--modes", options->assembly.modes, "Fourier modes m'; more make contact harder")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000000));
-  command->add_option("--grid", options->field.grid, "Nodes along a part's longest side")
+  command->add_option("--grid", options->field.grid, "Nodes along a body's longest side")
       ->capture_default_str()
       ->check(CLI::Range(8, 1024));
   command
       ->add_option(
           "--field", options->field_kind,
-          "What parts are made of: double-skin, or skeletal (densities of their skeletons)")
+          "What bodies are made of: double-skin, or skeletal (densities of their skeletons)")
       ->capture_default_str()
       ->check(CLI::IsMember({"double-skin", "skeletal"}));
   command
@@ -284,7 +301,11 @@ void add_assemble(CLI::App& program) {
       "  mortise assemble block.stl peg.stl --path hand.csv -o wrench.csv --plot wrench.svg\n"
       "  mortise assemble block.stl peg.stl --goal mate.csv --seconds 30 --json\n"
       "  mortise assemble block.stl peg.stl --goal mate.csv --free 50\n"
-      "  mortise assemble block.stl peg.stl --mates mates.json --free 50\n");
+      "  mortise assemble block.stl peg.stl --mates mates.json --free 50\n"
+      "  mortise assemble receptor.pdb ligand.pdb --goal complex.csv --free 20\n"
+      "Of balls, and of a molecule's atoms with their radii, the union is the body. Bodies of two "
+      "kinds need\n"
+      "one unit of length.\n");
   command->callback([options] {
     check_flags(*options);
     run(*options);

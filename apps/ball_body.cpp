@@ -7,7 +7,6 @@
 #include "mortise/parts/ball_union.hpp"
 #include "mortise/parts/decompose.hpp"
 #include "mortise/runs/body_forms.hpp"
-#include "mortise/store/body.hpp"
 
 namespace mortise::app {
 
@@ -32,6 +31,13 @@ BallBody read_ball_body(const std::string& spec, const BallBodyOptions& options)
   }
   if (options.as_solid) body.solid = part->solid;
   return body;
+}
+
+std::string size_text(const Body& body) {
+  if (const Molecule* molecule = body.molecule())
+    return std::to_string(molecule->atoms.size()) + " atoms";
+  if (const Part* part = body.part()) return std::to_string(part->mesh.size()) + " triangles";
+  return std::to_string(body.balls()->size()) + " balls";
 }
 
 }  // namespace mortise::app

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mortise/parts/solid.hpp"
+#include "mortise/store/body.hpp"
 
 namespace mortise::app {
 
@@ -27,5 +28,8 @@ struct BallBodyOptions {
 /// A molecule's heavy atoms with radii of their own, balls as they are, or a part's spherical
 /// decomposition. @throws FileError, InputError as read_body() and decompose()
 [[nodiscard]] BallBody read_ball_body(const std::string& spec, const BallBodyOptions& options);
+
+/// "1502 triangles", "58 atoms", "310 balls".
+[[nodiscard]] std::string size_text(const Body& body);
 
 }  // namespace mortise::app

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "clearances.hpp"
 #include "commands.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/read_molecule.hpp"
@@ -31,7 +32,8 @@ constexpr std::size_t kPosesShown = 5;
 
 Json figures_json(const std::vector<Figure>& figures) {
   Json result = Json::object();
-  for (const Figure& figure : figures) result[figure.name] = figure.value;
+  for (const Figure& figure : figures)
+    if (!is_clearance_figure(figure)) result[figure.name] = figure.value;
   return result;
 }
 
@@ -97,6 +99,7 @@ Json describe_run(const Run& run) {
                      {"metrics", metrics},
                      {"best", best}};
   result["candidates"] = run.candidates.size();
+  add_clearances(result, run);
   return result;
 }
 
@@ -249,6 +252,11 @@ void print_run(const std::string& file, const Json& all) {
   line("poses", poses["count"].dump());
   line("channels", names_text(poses["channels"]));
   line("metrics", names_text(poses["metrics"]));
+  if (all.contains("clearances")) {
+    line("clearance", number(all["best_clearance"]) + " fits best; best score by clearance:");
+    for (const Json& one : all["clearances"])
+      line("", number(one["clearance"], "%8.6g") + " " + number(one["best_score"], "%12.4f"));
+  }
   if (poses["best"].empty()) return;
   std::printf("\n  %4s %12s  %-35s %-29s %s\n", "rank", "score", "quaternion w x y z",
               "translation x y z", "cluster");

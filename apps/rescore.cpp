@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "clearances.hpp"
 #include "clock.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
@@ -58,11 +59,13 @@ void execute(const RescoreFlags& flags) {
                                    {"file", flags.output},
                                    {"complete", result.complete}};
     if (!result.poses.poses.empty()) json["best_score"] = result.poses.poses.front().score;
+    add_clearances(json, result);
     std::printf("%s\n", json.dump().c_str());
   } else if (!flags.common.quiet) {
-    std::printf("ranked    %zu candidates to %zu poses in %.1f s\n\n%s\nwrote %s\n",
+    std::printf("ranked    %zu candidates to %zu poses in %.1f s\n%s\n%s\nwrote %s\n",
                 run.candidates.size(), result.poses.poses.size(), seconds,
-                pose_table(result, 10).c_str(), flags.output.c_str());
+                clearance_lines(result).c_str(), pose_table(result, 10).c_str(),
+                flags.output.c_str());
   }
 }
 

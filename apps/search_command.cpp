@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "ball_body.hpp"
+#include "clearances.hpp"
 #include "clock.hpp"
 #include "interrupt.hpp"
 #include "mortise/core/errors.hpp"
@@ -53,7 +55,9 @@ void print_json(const std::string& output, const Run& run, const Json& more) {
                {"best_score", nullptr},
                {"file", output},
                {"complete", run.complete}};
-  for (const Figure& f : run.figures) json[f.name] = f.value;
+  for (const Figure& f : run.figures)
+    if (!is_clearance_figure(f)) json[f.name] = f.value;
+  add_clearances(json, run);
   if (!run.poses.poses.empty()) json["best_score"] = run.poses.poses.front().score;
   json.update(more);
   std::printf("%s\n", json.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
@@ -79,17 +83,10 @@ void print_result(const SearchWords& words, const std::string& output, const Run
       run.rotations.covering_radius * 180.0 / std::numbers::pi, figure(run, "grid_x"),
       figure(run, "grid_y"), figure(run, "grid_z"), figure(run, "grid_spacing"), words.unit,
       threads, threads == 1 ? "thread" : "threads");
-  std::printf("found     %zu poses in %.1f s\n\n%s\n", run.poses.poses.size(), run.seconds,
-              pose_table(run, 10).c_str());
+  std::printf("found     %zu poses in %.1f s\n%s\n%s\n", run.poses.poses.size(), run.seconds,
+              clearance_lines(run).c_str(), pose_table(run, 10).c_str());
   std::printf("wrote %s; to go on:\n%s", output.c_str(),
               next_steps(run, shell_word(output)).c_str());
-}
-
-std::string size_text(const Body& body) {
-  if (const Molecule* molecule = body.molecule())
-    return std::to_string(molecule->atoms.size()) + " atoms";
-  if (const Part* part = body.part()) return std::to_string(part->mesh.size()) + " triangles";
-  return std::to_string(body.balls()->size()) + " balls";
 }
 
 void print_body(const char* label, const Body& body) {

@@ -106,9 +106,40 @@ struct Parts {
   double coarser = 1.0;  // step and skin, times those asked for
 };
 
+void check_clearances(const MateOptions& options) {
+  const std::vector<double>& all = options.clearances;
+  if (all.empty()) return;
+  const auto refuse = [](const std::string& why) { throw InputError("mate: clearances " + why); };
+  if (all.size() > kMostClearances)
+    refuse("must be at most " + std::to_string(kMostClearances) + ", got " +
+           std::to_string(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!(all[i] >= 0.0) || !std::isfinite(all[i]))
+      refuse("must be >= 0 and finite, got " + short_number(all[i]));
+    if (i > 0 && !(all[i] > all[i - 1]))
+      refuse("must rise, got " + short_number(all[i]) + " after " + short_number(all[i - 1]));
+  }
+  if (options.knots != PartKnots::kBalls)
+    refuse(
+        "need --knots balls: the search grows the moving part's balls by each clearance, and nodes "
+        "of a grid cannot grow");
+}
+
+// The largest clearance, in diameters of the smaller part; 0 if there is none.
+double widest_clearance(double length, const MateOptions& options) {
+  if (options.clearances.empty()) return 0.0;
+  const double widest = options.clearances.back() / length;
+  if (!(widest <= 0.25))
+    throw InputError("mate: clearances must be at most a quarter of the smaller part's diameter, " +
+                     short_number(0.25 * length) + ", got " +
+                     short_number(options.clearances.back()));
+  return widest;
+}
+
 // A fixed part much larger than the moving one needs a box that a grid as fine would make slow.
-double coarsening(const Part& fixed, const Part& moving, const MateOptions& options) {
-  const double reach = diameter_of(moving.mesh.vertices) + 2.0 * options.skin;
+double coarsening(const Part& fixed, const Part& moving, double widest,
+                  const MateOptions& options) {
+  const double reach = diameter_of(moving.mesh.vertices) + 2.0 * (options.skin + widest);
   const double box = (fixed.solid->bounds().sizes().array() + reach).prod();
   return std::max(1.0, std::cbrt(box / options.most_cells) / options.spacing);
 }
@@ -139,10 +170,12 @@ Parts make_parts(Part fixed, Part moving, const MateOptions& options) {
     const double ratio = std::min(20.0, area / std::min(fixed_area, moving_area));
     return sample_surface(part.mesh, static_cast<Eigen::Index>(ratio * options.samples));
   };
-  parts.coarser = coarsening(parts.local_fixed, parts.local_moving, options);
+  const double widest = widest_clearance(parts.length, options);
+  parts.coarser = coarsening(parts.local_fixed, parts.local_moving, widest, options);
   parts.step = parts.coarser * options.spacing;
   parts.offset = parts.coarser * options.skin;
-  const double margin = std::max(parts.offset + 2.0 * parts.step, 16.0 * options.tolerance);
+  const double margin =
+      widest + std::max(parts.offset + 2.0 * parts.step, 16.0 * options.tolerance);
   parts.pair = std::make_shared<const PartPair>(PartPair{
       fixed_frame, moving_frame,
       ContactPair(
@@ -215,56 +248,82 @@ RotationSet mate_rotations(const Parts& parts, const MateOptions& options,
 
 // Coarse to fine, few points to many, many placements to few. Of a placement that is not polished
 // yet the grid's step alone makes it penetrate, so that costs less.
-std::vector<Stage> mate_stages(const Parts& parts, const MateOptions& options) {
+std::vector<Stage> mate_stages(const std::shared_ptr<const PartPair>& pair, double length,
+                               const MateOptions& options) {
   const auto scorer = [&](double widths, double fraction, double penetration) {
     return std::make_shared<const PartScorer>(
-        parts.pair, PartScoreOptions{widths * options.tolerance, fraction, options.one_sided_weight,
-                                     penetration});
+        pair, PartScoreOptions{widths * options.tolerance, fraction, options.one_sided_weight,
+                               penetration});
   };
   const double rough = std::min(1.0, options.penetration_weight);
   const auto near = scorer(2.0, 0.25, rough);
   const auto last = scorer(1.0, 1.0, options.penetration_weight);
   const auto keep = static_cast<std::size_t>(options.polished);
-  const double radius = options.cluster_radius * parts.length;
+  const double radius = options.cluster_radius * length;
   return {{.name = "rough",
            .scorer = scorer(4.0, 0.15, rough),
            .replaces = true,
            .keep = 20 * keep,
            .cluster_radius = radius},
           {.name = "approach",
-           .move = approach_contact(parts.pair, near, options.tolerance),
+           .move = approach_contact(pair, near, options.tolerance),
            .scorer = near,
            .replaces = true,
            .keep = keep,
            .cluster_radius = radius},
           {.name = "polish",
-           .move = polish_contact(parts.pair, last, options.tolerance),
+           .move = polish_contact(pair, last, options.tolerance),
            .scorer = last,
            .replaces = true,
            .keep = static_cast<std::size_t>(options.poses),
            .cluster_radius = radius}};
 }
 
-// The contact of the best poses, exactly.
-std::vector<MetricColumn> contact_columns(const Part& fixed, const Part& moving,
-                                          const MateOptions& options, const PoseList& list) {
+// Each clearance has its stages; what they leave is put together, one pose of each cluster.
+void add_clearance_stages(const Parts& parts, const MateOptions& options, SearchPlan& plan) {
+  for (const double clearance : options.clearances) {
+    const PartPair& pair = *parts.pair;
+    const auto apart = std::make_shared<const PartPair>(PartPair{
+        pair.fixed_frame, pair.moving_frame, pair.pair.with_clearance(clearance / parts.length)});
+    plan.offset_stages.push_back(mate_stages(apart, parts.length, options));
+  }
+  plan.search.offsets = options.clearances;
+  plan.offset_name = kClearance;
+  plan.stages = {{.name = "clearances",
+                  .keep = static_cast<std::size_t>(options.poses),
+                  .cluster_radius = options.cluster_radius * parts.length}};
+}
+
+// The clearance at which the search found each pose, and the contact of the best, exactly.
+std::vector<MetricColumn> described(const Part& fixed, const Part& moving, double length,
+                                    const MateOptions& options, const PoseList& list,
+                                    const std::vector<FoundPose>& found) {
+  const auto clearance = [&](std::size_t i) {
+    return options.clearances.at(static_cast<std::size_t>(found[i].offset_index));
+  };
   constexpr const char* kNames[] = {
       "contact_area", "penetration_volume", "penetration_depth", "pull_blocked", "pull_x", "pull_y",
       "pull_z"};
   std::vector<MetricColumn> columns;
   for (const char* name : kNames)
     columns.push_back({name, std::vector<double>(list.poses.size(), std::nan(""))});
+  const bool apart = !options.clearances.empty();
   const std::size_t count = std::min(list.poses.size(), static_cast<std::size_t>(options.check));
   for (std::size_t i = 0; i < count; ++i) {
     const ContactReport report = measure_contact(
         fixed.mesh, *fixed.solid, moving.mesh, *moving.solid, list.poses[i].moving_in_fixed,
-        {.tolerance = options.tolerance, .threads = options.threads});
+        {.tolerance = options.tolerance + (apart ? clearance(i) / length : 0.0),
+         .threads = options.threads});
     const double values[] = {report.contact_area,      report.penetration_volume,
                              report.penetration_depth, report.pull_blocked,
                              report.pull_direction[0], report.pull_direction[1],
                              report.pull_direction[2]};
     for (std::size_t m = 0; m < std::size(kNames); ++m) columns[m].values[i] = values[m];
   }
+  if (!apart) return columns;
+  MetricColumn column{kClearance, {}};
+  for (std::size_t i = 0; i < list.poses.size(); ++i) column.values.push_back(clearance(i));
+  columns.insert(columns.begin(), std::move(column));
   return columns;
 }
 
@@ -298,6 +357,7 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
   if (options.axis && !(options.axis->fixed.norm() > 0.0 && options.axis->moving.norm() > 0.0 &&
                         options.axis->fixed.allFinite() && options.axis->moving.allFinite()))
     throw InputError("mate: an axis must be finite and not 0");
+  check_clearances(options);
   if (options.skeletal > 0.0 && options.knots != PartKnots::kNodes)
     throw InputError("mate: the skeletal channel needs knots that are nodes");
   SearchPlan plan;
@@ -334,13 +394,16 @@ SearchPlan plan_mate(const Body& fixed, const Body& moving, const MateOptions& o
   const Eigen::Quaterniond search_from_fixed = search_frame(plan.channels).rotation;
   plan.rotations = mate_rotations(parts, started, search_from_fixed);
   plan.search_column = "skin";
-  plan.stages = mate_stages(parts, options);
+  if (options.clearances.empty())
+    plan.stages = mate_stages(parts.pair, parts.length, options);
+  else
+    add_clearance_stages(parts, options, plan);
   plan.points = pair.moving_frame.to_input(pair.pair.moving().points.cast<double>());
   for (std::string& decision : step_decisions(parts.coarser, options))
     plan.decisions.push_back(std::move(decision));
-  plan.describe = [fixed_part = parts.fixed, moving_part, options](const PoseList& list,
-                                                                   const std::vector<FoundPose>&) {
-    return contact_columns(fixed_part, moving_part, options, list);
+  plan.describe = [fixed_part = parts.fixed, moving_part, length = parts.length, options](
+                      const PoseList& list, const std::vector<FoundPose>& found) {
+    return described(fixed_part, moving_part, length, options, list, found);
   };
   return plan;
 }

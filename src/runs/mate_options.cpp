@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of mating options and its presets.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "mortise/core/errors.hpp"
@@ -57,6 +60,56 @@ void parse_form(O& o, const std::string& text) {
   throw InputError("knots: expected nodes or balls, got \"" + text + "\"");
 }
 
+std::string print_clearances(const O& o) {
+  std::string text;
+  for (const double c : o.clearances) text += (text.empty() ? "" : ",") + short_number(c);
+  return text.empty() ? "none" : text;
+}
+
+// The numbers of a text, between them one kind of sign; empty if it is anything else.
+std::vector<double> numbers_of(const std::string& text, char between) {
+  std::vector<double> numbers;
+  for (const char* at = text.c_str();; ++at) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(at, &end));
+    if (end == at || !std::isfinite(numbers.back()) || (*end != between && *end != '\0')) return {};
+    if (*end == '\0') return numbers;
+    at = end;
+  }
+}
+
+// MIN:STEP:MAX, both ends included, or a list in any order.
+void parse_clearances(O& o, const std::string& text) {
+  o.clearances.clear();
+  if (text == "none") return;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError("clearances: expected MIN:STEP:MAX or a list A,B,..., " + why + ", got \"" +
+                     text + '"');
+  };
+  if (text.find(':') == std::string::npos) {
+    o.clearances = numbers_of(text, ',');
+    if (o.clearances.empty()) refuse("all of them numbers");
+    std::sort(o.clearances.begin(), o.clearances.end());
+    if (std::adjacent_find(o.clearances.begin(), o.clearances.end()) != o.clearances.end())
+      refuse("each number once");
+  } else {
+    const std::vector<double> range = numbers_of(text, ':');
+    if (range.size() != 3 || !(range[1] > 0.0) || !(range[2] >= range[0]))
+      refuse("STEP > 0 and MAX >= MIN");
+    const double steps = std::floor((range[2] - range[0]) / range[1] * (1.0 + 1e-12) + 1e-9);
+    if (!(steps < kMostClearances))
+      refuse("at most " + std::to_string(kMostClearances) + " clearances");
+    for (int i = 0; i <= static_cast<int>(steps); ++i) {
+      char decimal[40];  // 0.3, not the 0.30000000000000004 that 0.1 * 3 is
+      std::snprintf(decimal, sizeof decimal, "%.12g", range[0] + i * range[1]);
+      o.clearances.push_back(std::strtod(decimal, nullptr));
+    }
+  }
+  if (o.clearances.front() < 0.0) refuse("none below 0");
+  if (o.clearances.size() > kMostClearances)
+    refuse("at most " + std::to_string(kMostClearances) + " clearances");
+}
+
 constexpr Row kRows[] = {
     {"rotations", kSearch, "Rotations searched; with --axis, turns for each way round",
      Row::Integer([](O& o) -> int& { return o.rotations; }), 1.0},
@@ -90,6 +143,12 @@ constexpr Row kRows[] = {
      "into "
      "balls",
      TextForm<O>{print_form, parse_form}},
+    {"clearances", kSearch,
+     "Gaps between facing surfaces to search for at once, on each side, in the files' length unit: "
+     "MIN:STEP:MAX, or a list A,B,...; says which fits best. Needs --knots balls; none = parts "
+     "that "
+     "touch",
+     TextForm<O>{print_clearances, parse_clearances}},
     {"ball_step", kSearch, "Grid step of the decomposition into balls",
      Row::Real([](O& o) -> double& { return o.ball_step; }), 0.0, 1.0, true},
     {"ball_mu", kSearch,

@@ -137,17 +137,20 @@ Run rescore(const Run& run, const SearchPlan& plan) {
   Run result = run;
   result.provenance.options_json = plan.options;
   const RigidMotion search_from_moving = compose(run.moving.search_from_input, inverse(plan.start));
-  StagedPoses staged =
+  RankedPoses ranked =
       rank_candidates(plan, run.candidates,
                       {run.rotations.quaternions, run.fixed.search_from_input, search_from_moving});
-  result.poses = std::move(staged.list);
+  result.poses = std::move(ranked.list);
   for (Pose& pose : result.poses.poses)
     pose.moving_in_fixed = compose(pose.moving_in_fixed, plan.start);
   result.metrics = plan_columns(plan, result);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   std::erase_if(result.figures, [](const Figure& figure) {
-    return figure.name.starts_with("seconds_rank") || figure.name == "seconds_describe";
+    return figure.name.starts_with("seconds_rank") || figure.name.starts_with("score_at_") ||
+           figure.name == "seconds_describe";
   });
+  for (Figure& figure : ranked.figures)
+    if (!figure.name.starts_with("seconds")) result.figures.push_back(std::move(figure));
   result.figures.push_back({"seconds_rank", spent.count()});
   return result;
 }

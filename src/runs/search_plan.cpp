@@ -2,7 +2,14 @@
 // The course of a run: search with checkpoints, ranking, and the record of it all.
 #include "mortise/runs/search_plan.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <iterator>
+#include <utility>
+
+#include "mortise/core/errors.hpp"
+#include "runs/option_table.hpp"
 
 namespace mortise {
 namespace {
@@ -11,6 +18,40 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string score_figure(const std::string& offset_name) { return "score_at_" + offset_name + '_'; }
+
+// Poses of the candidates that `is_taken` takes, as the search left them.
+template <class IsTaken>
+PoseList searched_poses(const SearchPlan& plan, const std::vector<Candidate>& candidates,
+                        const CandidateFrames& frames, const IsTaken& is_taken) {
+  PoseList list{{plan.search_column}, {}};
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& c = candidates[i];
+    if (!is_taken(c)) continue;
+    Pose pose;
+    pose.candidate = static_cast<std::int32_t>(i);
+    pose.moving_in_fixed = candidate_motion(c, frames);
+    pose.score = plan.search_weight * c.score;
+    pose.channels = {pose.score};
+    pose.rotation_index = c.rotation_index;
+    list.poses.push_back(std::move(pose));
+  }
+  return list;
+}
+
+void add_seconds(std::vector<Figure>& figures, const std::vector<Stage>& stages,
+                 const std::vector<double>& seconds) {
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const std::string name = "seconds_rank_" + stages[i].name;
+    const auto same = std::find_if(figures.begin(), figures.end(),
+                                   [&](const Figure& figure) { return figure.name == name; });
+    if (same == figures.end())
+      figures.push_back({name, seconds[i]});
+    else
+      same->value += seconds[i];
+  }
 }
 
 }  // namespace
@@ -27,21 +68,54 @@ RotationSearch make_search(const SearchPlan& plan) {
   return {plan.channels, plan.rotations.quaternions, options};
 }
 
-StagedPoses rank_candidates(const SearchPlan& plan, const std::vector<Candidate>& candidates,
+RankedPoses rank_candidates(const SearchPlan& plan, const std::vector<Candidate>& candidates,
                             const CandidateFrames& frames) {
-  PoseList list{{plan.search_column}, {}};
-  list.poses.reserve(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Candidate& c = candidates[i];
-    Pose pose;
-    pose.candidate = static_cast<std::int32_t>(i);
-    pose.moving_in_fixed = candidate_motion(c, frames);
-    pose.score = plan.search_weight * c.score;
-    pose.channels = {pose.score};
-    pose.rotation_index = c.rotation_index;
-    list.poses.push_back(std::move(pose));
+  RankedPoses result;
+  PoseList list;
+  if (plan.offset_stages.empty())
+    list = searched_poses(plan, candidates, frames, [](const Candidate&) { return true; });
+  for (const Candidate& c : candidates)
+    if (!plan.offset_stages.empty() &&
+        !(c.offset_index >= 0 &&
+          static_cast<std::size_t>(c.offset_index) < plan.offset_stages.size()))
+      throw InputError("ranking: expected candidates of " +
+                       std::to_string(plan.offset_stages.size()) + " offsets, found one of index " +
+                       std::to_string(c.offset_index));
+  for (std::size_t o = 0; o < plan.offset_stages.size(); ++o) {
+    StagedPoses staged = run_stages(
+        searched_poses(
+            plan, candidates, frames,
+            [&](const Candidate& c) { return static_cast<std::size_t>(c.offset_index) == o; }),
+        plan.offset_stages[o], plan.points, plan.threads);
+    add_seconds(result.figures, plan.offset_stages[o], staged.seconds);
+    list.channel_names = staged.list.channel_names;
+    if (staged.list.poses.empty()) continue;
+    if (!plan.offset_name.empty())
+      result.figures.push_back(
+          {score_figure(plan.offset_name) + short_number(plan.search.offsets.at(o)),
+           staged.list.poses.front().score});
+    std::move(staged.list.poses.begin(), staged.list.poses.end(), std::back_inserter(list.poses));
   }
-  return run_stages(std::move(list), plan.stages, plan.points, plan.threads);
+  StagedPoses staged = run_stages(std::move(list), plan.stages, plan.points, plan.threads);
+  add_seconds(result.figures, plan.stages, staged.seconds);
+  result.list = std::move(staged.list);
+  return result;
+}
+
+std::vector<OffsetScore> offset_scores(const std::vector<Figure>& figures,
+                                       const std::string& offset_name) {
+  std::vector<OffsetScore> scores;
+  const std::string start = score_figure(offset_name);
+  for (const Figure& figure : figures) {
+    if (!figure.name.starts_with(start)) continue;
+    OffsetScore score{0.0, figure.value};
+    const char* const end = figure.name.data() + figure.name.size();
+    if (std::from_chars(figure.name.data() + start.size(), end, score.offset).ptr == end)
+      scores.push_back(score);
+  }
+  std::sort(scores.begin(), scores.end(),
+            [](const OffsetScore& a, const OffsetScore& b) { return a.offset < b.offset; });
+  return scores;
 }
 
 PoseList rank_search(const SearchPlan& plan, const RotationSearch& search) {
@@ -103,10 +177,10 @@ Run run_plan(const SearchPlan& plan, const Provenance& provenance, const RunWatc
   if (watch.ranking) watch.ranking(stop);
 
   const Clock::time_point ranking = Clock::now();
-  StagedPoses staged = rank_candidates(
+  RankedPoses ranked = rank_candidates(
       plan, run.candidates,
       {plan.rotations.quaternions, search.search_from_fixed(), search.search_from_moving()});
-  run.poses = std::move(staged.list);
+  run.poses = std::move(ranked.list);
   for (Pose& pose : run.poses.poses)
     pose.moving_in_fixed = compose(pose.moving_in_fixed, plan.start);
   const double seconds_rank = seconds_since(ranking);
@@ -123,9 +197,10 @@ Run run_plan(const SearchPlan& plan, const Provenance& provenance, const RunWatc
     figure("seconds_prepare", seconds_prepare);
     figure("seconds_search", seconds_search);
     figure("seconds_rank", seconds_rank);
-    for (std::size_t i = 0; i < staged.seconds.size(); ++i)
-      figure("seconds_rank_" + plan.stages[i].name, staged.seconds[i]);
   }
+  for (Figure& f : ranked.figures)
+    if (!f.name.starts_with("seconds") || (searched && earlier == nullptr))
+      run.figures.push_back(std::move(f));
   if (searched && plan.describe) {
     const Clock::time_point describing = Clock::now();
     run.metrics = plan_columns(plan, run);

@@ -42,27 +42,29 @@ void ContactPair::for_each(const RigidMotion& motion, double sample_fraction,
                            const Use& use) const {
   const Eigen::Matrix3f R = motion.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f t = motion.translation.cast<float>();
+  const auto clearance = static_cast<float>(clearance_);
   Eigen::Vector3f gradient;
-  const Eigen::Index moving_count = count_of(moving_, sample_fraction);
-  const double moving_area = moving_.area / static_cast<double>(moving_count);
+  const Eigen::Index moving_count = count_of(*moving_, sample_fraction);
+  const double moving_area = moving_->area / static_cast<double>(moving_count);
   for (Eigen::Index i = 0; i < moving_count; ++i) {
-    const Eigen::Vector3f x = R * moving_.points.col(i) + t;
-    const float d = fixed_.field.at(x, gradient);
+    const Eigen::Vector3f x = R * moving_->points.col(i) + t;
+    const float d = fixed_->field.at(x, gradient);
     if (d < DistanceField::kFar)
-      use(1.0F, x, Eigen::Vector3f(R * moving_.normals.col(i)), d, gradient, moving_area);
+      use(1.0F, x, Eigen::Vector3f(R * moving_->normals.col(i)), d - clearance, gradient,
+          moving_area);
   }
   const Eigen::Matrix3f back = R.transpose();
-  const Eigen::Vector3f centre = (motion * moving_.centre).cast<float>();
-  const auto reach_sq = static_cast<float>(1.21 * moving_.reach * moving_.reach);
-  const Eigen::Index fixed_count = count_of(fixed_, sample_fraction);
-  const double fixed_area = fixed_.area / static_cast<double>(fixed_count);
+  const Eigen::Vector3f centre = (motion * moving_->centre).cast<float>();
+  const auto reach_sq = static_cast<float>(std::pow(1.1 * moving_->reach + clearance_, 2));
+  const Eigen::Index fixed_count = count_of(*fixed_, sample_fraction);
+  const double fixed_area = fixed_->area / static_cast<double>(fixed_count);
   for (Eigen::Index i = 0; i < fixed_count; ++i) {
-    const Eigen::Vector3f x = fixed_.points.col(i);
+    const Eigen::Vector3f x = fixed_->points.col(i);
     if ((x - centre).squaredNorm() > reach_sq) continue;
-    const float d = moving_.field.at(back * (x - t), gradient);
+    const float d = moving_->field.at(back * (x - t), gradient);
     if (d < DistanceField::kFar)
-      use(-1.0F, x, Eigen::Vector3f(fixed_.normals.col(i)), d, Eigen::Vector3f(R * gradient),
-          fixed_area);
+      use(-1.0F, x, Eigen::Vector3f(fixed_->normals.col(i)), d - clearance,
+          Eigen::Vector3f(R * gradient), fixed_area);
   }
 }
 
@@ -131,8 +133,8 @@ ContactFit ContactPair::fit(const RigidMotion& motion, double tolerance,
 RigidMotion ContactPair::descend(const RigidMotion& start, double sigma, double penalty,
                                  double sample_fraction, int steps) const {
   RigidMotion best = start;
-  const double length = 0.5 * moving_.reach;
-  Eigen::Vector3d centre = best * moving_.centre;
+  const double length = 0.5 * moving_->reach;
+  Eigen::Vector3d centre = best * moving_->centre;
   ContactEnergy here = energy(best, sigma, penalty, sample_fraction, centre, length);
   double damping = 1e-2;
   for (int step = 0; step < steps; ++step) {
@@ -145,7 +147,7 @@ RigidMotion ContactPair::descend(const RigidMotion& start, double sigma, double 
     const double longest = std::max(move.head<3>().norm(), 2.0 * move.tail<3>().norm());
     if (longest > 3.0 * sigma) move *= 3.0 * sigma / longest;
     const RigidMotion there = twisted(best, move, centre, length);
-    const Eigen::Vector3d there_centre = there * moving_.centre;
+    const Eigen::Vector3d there_centre = there * moving_->centre;
     const ContactEnergy next = energy(there, sigma, penalty, sample_fraction, there_centre, length);
     if (next.value < here.value) {
       const double gain = here.value - next.value;

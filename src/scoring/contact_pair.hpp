@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/parts/sample_surface.hpp"
@@ -40,11 +42,24 @@ struct ContactFit {
   double penetration = 0.0;  ///< area in penetration, each piece times its depth in tolerances
 };
 
-/// Judges placements of one moving body against one fixed body. Immutable, thread safe.
+/// Judges placements of one moving body against one fixed body. Immutable, thread safe; copies
+/// share the bodies.
+///
+/// With a clearance c the moving body counts as grown by c all round: every distance d between the
+/// two is taken as d - c, so that surfaces a gap of c apart are in contact and nearer ones
+/// penetrate.
 class ContactPair {
  public:
   ContactPair(ContactBody fixed, ContactBody moving)
-      : fixed_(std::move(fixed)), moving_(std::move(moving)) {}
+      : fixed_(std::make_shared<const ContactBody>(std::move(fixed))),
+        moving_(std::make_shared<const ContactBody>(std::move(moving))) {}
+
+  /// The same bodies at another clearance. The bodies' fields must reach that much further.
+  [[nodiscard]] ContactPair with_clearance(double clearance) const {
+    ContactPair pair = *this;
+    pair.clearance_ = clearance;
+    return pair;
+  }
 
   /// sum over the samples of both bodies of a phi(d / sigma), d the distance to the other body:
   ///
@@ -65,19 +80,20 @@ class ContactPair {
   [[nodiscard]] RigidMotion descend(const RigidMotion& start, double sigma, double penalty,
                                     double sample_fraction, int steps) const;
 
-  [[nodiscard]] const ContactBody& fixed() const { return fixed_; }
-  [[nodiscard]] const ContactBody& moving() const { return moving_; }
+  [[nodiscard]] const ContactBody& fixed() const { return *fixed_; }
+  [[nodiscard]] const ContactBody& moving() const { return *moving_; }
   /// The smaller of the two surfaces' areas.
-  [[nodiscard]] double smaller_area() const { return std::min(fixed_.area, moving_.area); }
+  [[nodiscard]] double smaller_area() const { return std::min(fixed_->area, moving_->area); }
 
  private:
   /// Calls use(side, x, n, d, g) for the samples that lie within the other body's grid: x, the
-  /// sample's normal n, and the other body's distance d and its gradient g, in the fixed frame;
-  /// side = +1 for moving samples, -1 for fixed ones.
+  /// sample's normal n, and the other body's distance d less the clearance and its gradient g, in
+  /// the fixed frame; side = +1 for moving samples, -1 for fixed ones.
   template <class Use>
   void for_each(const RigidMotion& motion, double sample_fraction, const Use& use) const;
 
-  ContactBody fixed_, moving_;
+  std::shared_ptr<const ContactBody> fixed_, moving_;
+  double clearance_ = 0.0;
 };
 
 }  // namespace mortise

@@ -92,6 +92,12 @@ TEST(MixedBodiesSlow, ABallMatesAsItsMeshDoes) {
   ball << box.center(), 0.5 * box.sizes().maxCoeff();
   MateOptions options;
   options.rotations = 60;
+  options.turns = 6;  // turns about a ball's axes are all alike
+  options.spacing = 0.03;
+  options.skin = 0.045;
+  options.distance_spacing = 0.02;
+  options.samples = 1000;
+  options.polished = 15;
   options.poses = 10;
   options.check = 1;
   options.random_start = 3;

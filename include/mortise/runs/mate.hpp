@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "mortise/runs/option_row.hpp"
 #include "mortise/runs/search_plan.hpp"
@@ -48,6 +49,10 @@ struct MateOptions {
   double skeletal = 0.0;     ///< weight of a second channel, the parts' skeletal densities, beside
                              ///< the double skin's 1; >= 0, 0 = none. Needs solids of meshes
   PartKnots knots = PartKnots::kNodes;
+  std::vector<double> clearances =
+      {};  ///< gaps between facing surfaces to search for, all in one search, **length unit of the
+           ///< files**; rising, each >= 0, at most kMostClearances, none above a quarter of the
+           ///< smaller part's diameter. Need knots that are balls. Empty = parts that touch
   double ball_step = 0.02;      ///< grid step of the decomposition into balls; > 0
   double ball_mu = 0.25;        ///< its mu (DecomposeOptions::protrusion); 0 to 1
   double ball_largest = 0.04;   ///< radius of a ball, at most; > 0
@@ -74,6 +79,12 @@ struct MateOptions {
   int threads = 0;  ///< 0 = all cores; never changes the result
 };
 
+/// Clearances that one search takes, at most.
+inline constexpr int kMostClearances = 50;
+
+/// The name of the column and, with offset_scores(), of the figures that clearances give.
+inline constexpr const char* kClearance = "clearance";
+
 /// "fast", "default" or "thorough". @throws InputError for any other name, listing these
 [[nodiscard]] MateOptions mate_preset(const std::string& name);
 
@@ -93,9 +104,18 @@ struct MateOptions {
 /// Further columns, of the best options.check poses, are measured exactly (metrics/contact.hpp):
 /// contact_area, penetration_volume, penetration_depth, pull_blocked, pull_x, pull_y, pull_z.
 ///
+/// With clearances the moving part counts as grown by each of them in turn: a mate that leaves a
+/// gap c on all sides scores at clearance c as one without a gap does at 0. The search grows its
+/// balls (SearchOptions::offsets), the ranking takes c off every distance. Each clearance's
+/// candidates are ranked by themselves; the list has the best of all, one of each cluster, with the
+/// column "clearance"; the figures of offset_scores() say how well each clearance fits.
+/// contact_area then counts surfaces up to clearance and tolerance apart; what penetrates is
+/// measured on the parts as they are.
+///
 /// Any body will do: of balls, and of a molecule's atoms, the union is the part.
 /// @throws InputError if a part has no surface or no inside, the two files give different units, an
-/// option is out of range, or the skeletal channel is asked for and a body is no mesh
+/// option is out of range, clearances are asked for without balls, or the skeletal channel is asked
+/// for and a body is no mesh
 [[nodiscard]] SearchPlan plan_mate(const Body& fixed, const Body& moving,
                                    const MateOptions& options = {});
 

@@ -41,6 +41,11 @@ struct SearchPlan {
   SearchOptions search;
   double search_weight = 1.0;           ///< what the search's score counts in the poses' score
   std::string search_column = "shape";  ///< its name among the poses' columns
+  /// One list for each of search.offsets, whose candidates go through it by themselves; `stages`
+  /// then take what all lists left. Empty = `stages` take all candidates.
+  std::vector<std::vector<Stage>> offset_stages = {};
+  /// What an offset is to people, such as "clearance": names figures by offset. Empty = none
+  std::string offset_name = {};
   std::vector<Stage> stages;
   Eigen::Matrix3Xd points;  ///< 3 x N, of the moving body, frame of the start: RMSDs are over them
   /// Further columns of the final poses; may be empty. Motions are in input frames; `found` has one
@@ -58,12 +63,31 @@ struct SearchPlan {
 /// The search that a plan asks for, ready to run.
 [[nodiscard]] RotationSearch make_search(const SearchPlan& plan);
 
+/// Ranked poses, and what the run file keeps of the ranking: seconds_rank_STAGE, wall time; of a
+/// plan with offset_stages and offset_name also the figures of offset_scores().
+struct RankedPoses {
+  PoseList list;
+  std::vector<Figure> figures;
+};
+
 /// Ranks candidates by the plan's stages. Motions are of the moving body in the frame of the start.
-[[nodiscard]] StagedPoses rank_candidates(const SearchPlan& plan,
+/// @throws InputError as run_stages(), or if a candidate's offset has no stages
+[[nodiscard]] RankedPoses rank_candidates(const SearchPlan& plan,
                                           const std::vector<Candidate>& candidates,
                                           const CandidateFrames& frames);
 /// The same of a search's candidates so far.
 [[nodiscard]] PoseList rank_search(const SearchPlan& plan, const RotationSearch& search);
+
+/// The best score that a run found at one of its offsets.
+struct OffsetScore {
+  double offset = 0.0;  ///< length unit of the bodies
+  double best_score = 0.0;
+};
+
+/// The best score at each offset, by offset, as the figures "score_at_NAME_OFFSET" of a run have
+/// them; offsets without a pose are left out. Empty unless the plan had an offset_name.
+[[nodiscard]] std::vector<OffsetScore> offset_scores(const std::vector<Figure>& figures,
+                                                     const std::string& offset_name);
 
 /// The plan's further columns of a run's poses.
 [[nodiscard]] std::vector<MetricColumn> plan_columns(const SearchPlan& plan, const Run& run);

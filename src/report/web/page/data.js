@@ -22,6 +22,7 @@ const KNOWN = {
   shape: { label: 'Shape', score: true, about: 'Shape complementarity, a part of the score' },
   contact: { label: 'Contact', score: true, about: 'Contacts between the bodies, a part of the score' },
   penetration: { label: 'Penetration', score: true, about: 'What overlaps, a part of the score' },
+  clearance: { label: 'Clearance', power: 1, about: 'Gap between the parts that the pose was searched and judged with' },
   contact_area: { label: 'Contact area', power: 2, good: 'high', about: 'Area over which the parts touch' },
   penetration_volume: { label: 'Overlap', power: 3, good: 'low', about: 'Volume that both parts would fill' },
   penetration_depth: { label: 'Depth', power: 1, good: 'low', about: 'How deep one part reaches into the other at most' },
