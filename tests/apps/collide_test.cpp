@@ -194,6 +194,46 @@ TEST_F(PartPrograms, AssembleCountsTheMatesSymmetries) {
   expect_user_error(command + "--pair nonesuch", "'nonesuch'");
 }
 
+TEST_F(PartPrograms, AssembleTakesAnyBodyWithAny) {
+  // The cube as eight balls, one at each corner, and as what decompose makes of it.
+  {
+    std::ofstream balls(path("cube.xyzr"));
+    for (int corner = 0; corner < 8; ++corner)
+      balls << 0.5 * (corner & 1) - 0.25 << ' ' << 0.25 * (corner & 2) - 0.25 << ' '
+            << 0.125 * (corner & 4) - 0.25 << " 0.3\n";
+  }
+  must("decompose cube.obj -o cube.h5 --grid 24 --expansion 0 --no-hausdorff --quiet");
+  const std::string further = " --goal goal.csv --seconds 0.05 --grid 24 --modes 500 -o ";
+  const auto peak = [&](const std::string& name) {
+    double largest = 0.0;
+    std::ifstream csv(path(name));
+    std::string line;
+    std::getline(csv, line);
+    while (std::getline(csv, line))
+      largest = std::max(largest, std::abs(std::stod(line.substr(line.find(',') + 1))));
+    return largest;
+  };
+  const nlohmann::json meshes = json("assemble cube.obj cube.obj" + further + "meshes.csv");
+  for (const char* moving : {"cube.xyzr", "cube.h5"}) {
+    const nlohmann::json mixed =
+        json(std::string("assemble cube.obj ") + moving + further + "mixed.csv");
+    EXPECT_EQ(mixed["steps"], meshes["steps"]);
+    // Less is filled by the balls, but it is the same cube.
+    EXPECT_GT(peak("mixed.csv"), 0.2 * peak("meshes.csv")) << moving;
+    EXPECT_LT(peak("mixed.csv"), 1.5 * peak("meshes.csv")) << moving;
+  }
+  EXPECT_THAT(must("assemble cube.xyzr cube.obj" + further + "a.csv").out,
+              HasSubstr("bodies       8 balls and 12 triangles"));
+  EXPECT_THAT(must("assemble cube.h5 cube.xyzr --field skeletal" + further + "a.csv").out,
+              HasSubstr(" and 8 balls"));
+  EXPECT_THAT(must("assemble 1hpv_ligand.pdb cube.obj" + further + "a.csv").out,
+              HasSubstr(" atoms and 12 triangles"));
+  EXPECT_EQ(
+      json("assemble cube.h5 cube.h5 --goal goal.csv --free 2 --grid 24 --modes 500")["starts"], 2);
+  expect_user_error("assemble cube.xyzr:A cube.obj" + further + "a.csv", "cube.xyzr");
+  expect_user_error("assemble cube.h5 cube.obj --goal goal.csv -o cube.h5", "found an input");
+}
+
 TEST_F(PartPrograms, BadInputIsNamed) {
   std::ofstream(path("bad.csv")) << "qw,qx,qy,qz,tx,ty\n1,0,0,0,0,0\n";
   Outcome outcome = mortise("collide cube.obj cube.obj --poses bad.csv");

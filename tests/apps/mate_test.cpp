@@ -157,6 +157,62 @@ TEST_F(Mate, ThreadsAndInterruptionsChangeNothing) {
   expect_user_error("dock -o cut.h5 --resume", "mate run");
 }
 
+TEST_F(Mate, ClearancesAreToldWhereverARunIs) {
+  const Outcome outcome = must(
+      "mate dovetail_socket_close.stl dovetail_tail.stl -o run.h5 --rotations 1 --polished 5 "
+      "--poses 5 --samples 1000 --check 0 --knots balls --ball-step 0.03 --distance-spacing 0.02 "
+      "--clearances 0:0.1:0.2");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(" fits best\n"), HasSubstr("best score")));
+  EXPECT_THAT(outcome.out, HasSubstr("  clearance contact_area"));
+  const nlohmann::json info = json("info run.h5");
+  ASSERT_EQ(info["clearances"].size(), 3U);
+  EXPECT_EQ(info["clearances"][2]["clearance"], 0.2);
+  EXPECT_FALSE(info["figures"].contains("score_at_clearance_0.2"));
+  EXPECT_THAT(must("info run.h5").out, HasSubstr(" fits best; best score by clearance:"));
+  // The socket is 0.5% wider than the tail: thicker than by 0.1 mm a side it does not go in.
+  const double best = info["best_clearance"];
+  EXPECT_LT(best, 0.2);
+  const mortise::Run run = read_run(path("run.h5"));
+  EXPECT_EQ(run.metrics.front().name, "clearance");
+  EXPECT_EQ(run.metrics.front().values.front(), best);
+  EXPECT_EQ(info["clearances"][best == 0.0 ? 0 : 1]["best_score"], run.poses.poses.front().score);
+  // Ranked anew, the same; gone on with, only as it was begun.
+  const nlohmann::json again = json("rescore run.h5 -o again.h5");
+  EXPECT_EQ(again["clearances"], info["clearances"]);
+  EXPECT_EQ(again["best_clearance"], best);
+  must("mate -o run.h5 --resume --clearances 0,0.1,0.2 --quiet");
+  expect_user_error("mate -o run.h5 --resume --clearances 0:0.1:0.3", "clearances differs");
+  must("export run.h5 --format csv -o poses.csv");
+  EXPECT_THAT(read_whole_file(path("poses.csv")), HasSubstr(",clearance,"));
+  must("report run.h5 -o page");
+  EXPECT_THAT(read_whole_file(path("page/poses.csv")), HasSubstr(",clearance,"));
+  expect_user_error(mate("no.h5", "--clearances 0:0.1:0.2"), "need --knots balls");
+  expect_user_error(mate("no.h5", "--knots balls --clearances 0:0.1"),
+                    "--clearances: expected MIN");
+}
+
+// Two parts taken apart by one command and mated by the next. Balls that stay inside their parts
+// (--expansion 0) leave no overlap where the parts touch.
+class MateSlow : public Mate {};
+
+TEST_F(MateSlow, FilesOfDecomposeFindTheMateOfTheirParts) {
+  for (const char* part : {"ball_cup_exact", "ball"})
+    must(std::string("decompose ") + MORTISE_SOURCE_DIR + "/parts/" + part + ".stl -o " + part +
+         ".h5 --grid 48 --expansion 0 --weights share --no-hausdorff --quiet");
+  const Outcome outcome = must(
+      "mate ball_cup_exact.h5 ball.h5 -o run.h5 --knots balls --random-start 3 --rotations 1 "
+      "--axis 0,0,1:0,0,1 --spacing 0.04 --skin 0.06 --distance-spacing 0.02 --tolerance 0.01 "
+      "--samples 1000 --polished 20 --check 0");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("moving    ball.h5: "), HasSubstr(" balls\n")));
+  const nlohmann::json found =
+      json("evaluate run.h5 --reference-pose mates.json --pair ball_socket_exact");
+  EXPECT_EQ(found["first_within_2_percent"], 1);
+  EXPECT_LT(found["error_of_first"], 0.015);
+  const mortise::Run run = read_run(path("run.h5"));
+  EXPECT_EQ(run.fixed.kind, "balls");
+  EXPECT_GT(run.poses.poses.front().score, 0.2);
+}
+
 TEST_F(Mate, SaysWhatIsWrong) {
   expect_user_error("mate dovetail_tail.stl -o run.h5", "expected two inputs");
   expect_user_error("mate dovetail_tail.stl none.stl -o run.h5", "none.stl");

@@ -56,7 +56,7 @@ std::string error_of(const MateOptions& options) {
   return "no error";
 }
 
-TEST(Clearances, ThePlayOfAPegInItsHoleIsFound) {
+TEST(ClearancesSlow, ThePlayOfAPegInItsHoleIsFound) {
   const mortise::Run tight = mate(peg_block(0.0), peg(), quick({0.0}));
   for (const double play : {0.15, 0.3}) {
     const mortise::Run run = mate(peg_block(play), peg(), quick({0.0, 0.15, 0.3, 0.45}));
@@ -127,7 +127,7 @@ TEST(Clearances, ContactIsThatOfTheGrownBody) {
 
 // Balls of one radius need no compression: then one search of many clearances and one of each are
 // the same to the bit. The largest is in all of them, so that grids are the same.
-TEST(Clearances, AreThoseOfSeparateSearches) {
+TEST(ClearancesSlow, AreThoseOfSeparateSearches) {
   const auto balls = [](const Part& part) {
     std::vector<Eigen::Vector3d> inside;
     for (double x = 1.0; x < 20.0; x += 2.0)
