@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/pose_distance.hpp"
 #include "mortise/metrics/reference_complex.hpp"
@@ -28,8 +29,8 @@ Setup make_setup(int fixed_size, int moving_size) {
   const RigidMotion place{Eigen::Quaterniond::Identity(), {distance, 0, 0}};
   Setup out{ReferenceComplex(fixed, moving, fixed, testing_bodies::moved(place, moving)), {}};
   for (int i = 0; i < 1000; ++i) {
-    const RigidMotion turn = testing_bodies::random_motion(random, 0.003 * i, 0.0);
-    const RigidMotion roll = testing_bodies::random_motion(random, 0.003 * i, 0.0);
+    const RigidMotion turn = tests::random_turn(random, 0.003 * i, 0.0);
+    const RigidMotion roll = tests::random_turn(random, 0.003 * i, 0.0);
     out.poses.push_back(compose(roll, compose(place, turn)));
   }
   return out;

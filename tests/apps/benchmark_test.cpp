@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "apps/program.hpp"
+#include "mortise/store/csv.hpp"
 
 namespace mortise {
 namespace {
@@ -39,27 +40,14 @@ class Benchmark : public testing::Program {
     std::getline(text, line);
     EXPECT_THAT(line, ::testing::StartsWith("# mortise benchmark {"));
     std::getline(text, line);
-    const std::vector<std::string> columns = cells(line);
+    const std::vector<std::string> columns = csv_cells(line);
     std::map<std::string, std::map<std::string, std::string>> result;
     while (std::getline(text, line)) {
-      const std::vector<std::string> values = cells(line);
+      const std::vector<std::string> values = csv_cells(line);
       EXPECT_EQ(values.size(), columns.size()) << line;
       for (std::size_t i = 0; i < std::min(values.size(), columns.size()); ++i)
         result[values[0]][columns[i]] = values[i];
     }
-    return result;
-  }
-
-  static std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result(1);
-    bool quoted = false;
-    for (const char c : line)
-      if (c == '"')
-        quoted = !quoted;
-      else if (c == ',' && !quoted)
-        result.emplace_back();
-      else
-        result.back() += c;
     return result;
   }
 };

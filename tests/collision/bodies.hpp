@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/knots.hpp"
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/core/rotation_vector.hpp"
@@ -28,14 +29,6 @@ inline Knots random_knots(int count, double reach, const Eigen::Vector3d& centre
     knots.weights[i] = {1.0 + 0.5 * uniform(random), complex ? uniform(random) : 0.0};
   }
   return knots;
-}
-
-inline Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Eigen::Quaterniond q;
-  q.coeffs() << normal(random), normal(random), normal(random), normal(random);
-  q.normalize();
-  return canonical(q);
 }
 
 /// A pose that brings the centres (given in the bodies' frames) to a random distance up to `reach`.

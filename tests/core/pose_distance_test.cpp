@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/superpose.hpp"
@@ -14,7 +15,7 @@
 namespace mortise {
 namespace {
 
-using testing_bodies::random_motion;
+using tests::random_turn;
 
 TEST(PoseDistance, HalfTurnOfAStickByHand) {
   // Points at x = 1 and x = 3; half a turn about z carries them to -1 and -3: distances 2 and 6.
@@ -35,11 +36,11 @@ TEST(PoseDistance, EqualsTheDirectSumOverSizesAndAngles) {
         (20.0 * Eigen::Matrix3Xd::Random(3, n)).colwise() + Eigen::Vector3d(50, -80, 10);
     const PoseDistance distance(points);
     for (const double angle : {0.0, 1e-6, 0.01, 0.3, 2.0, 3.1}) {
-      const RigidMotion a = random_motion(random, 1.7, 40.0);
+      const RigidMotion a = random_turn(random, 1.7, 40.0);
       // b: a step from a about the body's own centroid, so that small angles make small distances
       const RigidMotion about{Eigen::Quaterniond::Identity(), distance.centroid()};
       const RigidMotion b =
-          compose(a, compose(about, compose(random_motion(random, angle, angle), inverse(about))));
+          compose(a, compose(about, compose(random_turn(random, angle, angle), inverse(about))));
       const double direct = rmsd(a * points, b * points);
       // The points lie 100 from the origin: both sides carry rounding of about 1e-14 x 100.
       EXPECT_NEAR(distance.rmsd(a, b), direct, 1e-12 * direct + 2e-13) << n << ' ' << angle;

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
@@ -38,9 +39,8 @@ TEST(PrincipalFrame, DependsOnTheShapeAlone) {
         normal(random);
   const Eigen::Matrix3Xd first = principal_frame(points) * points;
   for (int n = 0; n < 10; ++n) {
-    const RigidMotion motion{
-        canonical({normal(random), normal(random), normal(random), normal(random)}),
-        {5.0 * normal(random), normal(random), 40.0}};
+    const RigidMotion motion{tests::random_rotation(random),
+                             {5.0 * normal(random), normal(random), 40.0}};
     const Eigen::Matrix3Xd moved = motion * points;
     EXPECT_LT((principal_frame(moved) * moved - first).cwiseAbs().maxCoeff(), 1e-9);
   }

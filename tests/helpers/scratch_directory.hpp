@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mortise::testing {
+namespace mortise::tests {
 
 /// A fresh directory, removed with all in it at the end.
 class ScratchDirectory {
@@ -33,4 +33,4 @@ class ScratchDirectory {
   std::filesystem::path path_;
 };
 
-}  // namespace mortise::testing
+}  // namespace mortise::tests

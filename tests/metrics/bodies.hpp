@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small made-up molecules and motions for the tests of metrics.
+// Small made-up molecules for the tests of metrics.
 #pragma once
 
 #include <array>
@@ -38,13 +38,6 @@ inline Molecule calpha_chain(const std::string& chain,
 inline Molecule moved(const RigidMotion& motion, Molecule molecule) {
   for (Atom& a : molecule.atoms) a.position = motion * a.position;
   return molecule;
-}
-
-inline RigidMotion random_motion(std::mt19937& random, double angle, double step) {
-  std::normal_distribution<double> normal;
-  const Eigen::Vector3d axis(normal(random), normal(random), normal(random));
-  const Eigen::Vector3d t(normal(random), normal(random), normal(random));
-  return {canonical(Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))), step * t};
 }
 
 // A compact blob of `count` residues with five to eight atoms each and random names, in a ball

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/kernels/ball.hpp"
@@ -15,9 +16,9 @@
 namespace mortise {
 namespace {
 
-using testing_bodies::random_motion;
 using testing_parts::mortise_block;
 using testing_parts::tenon_plate;
+using tests::random_turn;
 
 class Ball : public Solid {
  public:
@@ -37,7 +38,7 @@ class Ball : public Solid {
 TEST(PenetrationVolume, OfTwoBallsIsTheirLens) {
   std::mt19937 random(2);
   for (const double d : {0.0, 0.4, 1.0, 1.5, 1.7, 1.78}) {
-    RigidMotion motion = random_motion(random, 2.0, 0.0);
+    RigidMotion motion = random_turn(random, 2.0, 0.0);
     motion.translation = d * Eigen::Vector3d(1, 2, -2) / 3.0;
     const double lens = ball_overlap_volume(1.0, 0.8, d);
     for (const double cell : {0.1, 0.05}) {
@@ -74,8 +75,8 @@ TEST(PenetrationVolume, OfThinOverlapsIsNotLostBetweenCells) {
 TEST(Contact, OfATenonInItsMortiseByHand) {
   std::mt19937 random(4);
   for (int i = 0; i < 2; ++i) {
-    const RigidMotion fixed_frame = i == 0 ? RigidMotion{} : random_motion(random, 2.0, 5.0);
-    const RigidMotion moving_frame = i == 0 ? RigidMotion{} : random_motion(random, 2.0, 5.0);
+    const RigidMotion fixed_frame = i == 0 ? RigidMotion{} : random_turn(random, 2.0, 5.0);
+    const RigidMotion moving_frame = i == 0 ? RigidMotion{} : random_turn(random, 2.0, 5.0);
     const Part block = mortise_block(fixed_frame);
     const Part plate = tenon_plate(moving_frame);
     const auto measure = [&](const Eigen::Vector3d& shift) {

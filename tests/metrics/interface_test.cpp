@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "core/nearest_point.hpp"
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
@@ -172,7 +173,7 @@ TEST_F(SampleInterface, EqualsTheSumsOverAllPairs) {
                                      {.points_per_atom = 150, .complementarity = false});
   for (int trial = 0; trial < 4; ++trial) {
     RigidMotion motion;
-    if (trial > 0) motion.translation = testing_bodies::random_motion(random, 1.0, 1.0).translation;
+    if (trial > 0) motion.translation = tests::random_turn(random, 1.0, 1.0).translation;
     const Molecule placed = moved(motion, moving);
     const InterfaceDescription d = interface.describe(motion);
     std::size_t contacts = 0, close = 0;
@@ -215,8 +216,8 @@ TEST_F(SampleInterface, MovingBothBodiesAndSwappingThemChangeLittle) {
   const InterfaceDescription d = MolecularInterface(fixed_, moving_).describe(kStay);
   EXPECT_GT(d.hydrogen_bonds.size(), 3U);
   EXPECT_GT(d.shape.sc, 0.5);
-  const RigidMotion far = testing_bodies::random_motion(random, 2.0, 30.0);
-  const RigidMotion turn = testing_bodies::random_motion(random, 1.0, 10.0);
+  const RigidMotion far = tests::random_turn(random, 2.0, 30.0);
+  const RigidMotion turn = tests::random_turn(random, 1.0, 10.0);
   const InterfaceDescription e = MolecularInterface(moved(far, fixed_), moved(turn, moving_))
                                      .describe(compose(far, inverse(turn)));
   EXPECT_EQ(d.residue_contacts.size(), e.residue_contacts.size());

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 
@@ -107,8 +108,8 @@ TEST(MatchResidues, PutsEquivalentChainsWhereTheySuperpose) {
   // other names.
   const Molecule chain = random_protein(random, "A", 30, Eigen::Vector3d::Zero());
   const Molecule a = chain;
-  const Molecule b = renamed(moved(random_motion(random, 1.0, 30.0), chain), "B");
-  const Molecule c = renamed(moved(random_motion(random, 2.0, 30.0), chain), "C");
+  const Molecule b = renamed(moved(random_turn(random, 1.0, 30.0), chain), "B");
+  const Molecule c = renamed(moved(random_turn(random, 2.0, 30.0), chain), "C");
   const Molecule reference = joined(joined(a, b), c);
   const Molecule model = joined(joined(renamed(c, "1"), renamed(a, "2")), renamed(b, "3"));
   const ResidueMatch match = match_residues(model, reference);

@@ -6,17 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 
+#include "helpers/random_motions.hpp"
+#include "helpers/scratch_directory.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
 namespace {
 
-using testing_bodies::random_motion;
+using tests::random_turn;
 
 TriangleMesh box(double x, double y, double z) {
   TriangleMesh mesh;
@@ -93,7 +94,7 @@ TEST(Placement, MembersOfEveryFamilyAreTrue) {
   std::mt19937 random(5);
   for (const Symmetry& s : each_kind()) {
     TrueMate truth;
-    truth.moving_in_fixed = random_motion(random, 2.0, 5.0);
+    truth.moving_in_fixed = random_turn(random, 2.0, 5.0);
     truth.symmetries = {s};
     const Placement placement(mesh, truth);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -115,12 +116,12 @@ TEST(Placement, IsNoWorseThanDenseSampling) {
   std::mt19937 random(6);
   const std::vector<Symmetry> kinds = each_kind();
   TrueMate truth;
-  truth.moving_in_fixed = random_motion(random, 2.0, 1.0);
+  truth.moving_in_fixed = random_turn(random, 2.0, 1.0);
   truth.symmetries = {kinds[1], kinds[0], kinds[3]};  // fold, turn, slide
   const Placement placement(mesh, truth);
   const TrueMate bare;
   for (int i = 0; i < 3; ++i) {
-    const RigidMotion pose = compose(random_motion(random, 0.3, 0.3), truth.moving_in_fixed);
+    const RigidMotion pose = compose(random_turn(random, 0.3, 0.3), truth.moving_in_fixed);
     const PlacementError error = placement.error(pose);
     double rms = 1e9;
     double largest = 1e9;
@@ -156,7 +157,7 @@ TEST(Placement, LargestIsTheLeastOfAllFolds) {
   std::mt19937 random(16);
   int elsewhere = 0;
   for (int i = 0; i < 200; ++i) {
-    const RigidMotion pose = random_motion(random, 3.0, 2.0);
+    const RigidMotion pose = random_turn(random, 3.0, 2.0);
     double least = std::numeric_limits<double>::infinity();
     for (double fold = 0.0; fold < 5.0; ++fold) {
       const Eigen::Matrix3Xd step =
@@ -173,8 +174,8 @@ TEST(Placement, LargestIsTheLeastOfAllFolds) {
 TEST(Placement, IsTheSameInAnyUnit) {
   const std::vector<Symmetry> kinds = each_kind();
   std::mt19937 random(17);
-  const RigidMotion where = random_motion(random, 2.0, 1.0);
-  const RigidMotion pose = compose(random_motion(random, 0.3, 0.3), where);
+  const RigidMotion where = random_turn(random, 2.0, 1.0);
+  const RigidMotion pose = compose(random_turn(random, 0.3, 0.3), where);
   const auto error = [&](double scale) {
     TriangleMesh mesh = box(1.0, 1.3, 2.0);
     mesh.vertices *= scale;
@@ -204,8 +205,8 @@ TEST(Placement, SlidesEndWhereTheyEnd) {
 }
 
 TEST(TrueMates, ReadsAFileAndNamesWhatIsWrong) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "mortise_true_mates.json").string();
+  const tests::ScratchDirectory scratch;
+  const std::string path = scratch / "mates.json";
   const auto write = [&](const std::string& text) { std::ofstream(path) << text; };
   write(R"({"pairs": [{"name": "peg", "fixed": "hole", "moving": "pin", "clearance": 0.005,
     "pose": {"rotation": [0, 1, 0, 0], "translation": [1, 2, 3]},
@@ -238,7 +239,6 @@ TEST(TrueMates, ReadsAFileAndNamesWhatIsWrong) {
     "pose": {"rotation": [1, 0, 0, 0], "translation": [0, 0, 0]},
     "symmetries": [{"kind": "twist"}]}]})",
                  "twist");
-  std::filesystem::remove(path);
   EXPECT_THROW((void)read_true_mates(path), FileError);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "reference/slow_complex_metrics.hpp"
@@ -147,8 +148,8 @@ Case random_case(std::mt19937& random, int fixed_size, int moving_size, double s
   c.moving = thinned(random, jittered(random, c.reference_moving, sigma), holes);
   c.reference_fixed = thinned(random, c.reference_fixed, holes);
   c.reference_moving = thinned(random, c.reference_moving, holes);
-  c.fixed = moved(random_motion(random, 1.0, 30.0), c.fixed);
-  c.moving = moved(random_motion(random, 2.0, 30.0), c.moving);
+  c.fixed = moved(random_turn(random, 1.0, 30.0), c.fixed);
+  c.moving = moved(random_turn(random, 2.0, 30.0), c.moving);
   return c;
 }
 
@@ -158,7 +159,7 @@ std::vector<RigidMotion> poses_around(std::mt19937& random, const ReferenceCompl
   std::vector<RigidMotion> out;
   for (int i = 0; i < count; ++i) {
     const double size = std::pow(10.0, -2.0 + 3.0 * i / count);
-    RigidMotion step = random_motion(random, std::min(3.0, 0.02 * size), 0.5 * size);
+    RigidMotion step = random_turn(random, std::min(3.0, 0.02 * size), 0.5 * size);
     out.push_back(compose(step, complex.superposed_pose()));
   }
   return out;
@@ -197,9 +198,9 @@ TEST(ReferenceComplex, CommonMotionsOfEitherSideChangeNothing) {
   std::mt19937 random(8);
   const Case c = random_case(random, 50, 30, 0.4, 0.02);
   const ReferenceComplex complex(c.fixed, c.moving, c.reference_fixed, c.reference_moving);
-  const RigidMotion f = random_motion(random, 1.3, 50.0);
-  const RigidMotion m = random_motion(random, 2.3, 50.0);
-  const RigidMotion r = random_motion(random, 0.7, 50.0);
+  const RigidMotion f = random_turn(random, 1.3, 50.0);
+  const RigidMotion m = random_turn(random, 2.3, 50.0);
+  const RigidMotion r = random_turn(random, 0.7, 50.0);
   const ReferenceComplex other(moved(f, c.fixed), moved(m, c.moving), moved(r, c.reference_fixed),
                                moved(r, c.reference_moving));
   for (const RigidMotion& pose : poses_around(random, complex, 20))

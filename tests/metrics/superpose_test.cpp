@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "reference/slow_complex_metrics.hpp"
@@ -13,7 +14,7 @@
 namespace mortise {
 namespace {
 
-using testing_bodies::random_motion;
+using tests::random_turn;
 
 reference::Points columns(const Eigen::Matrix3Xd& points) {
   reference::Points out;
@@ -50,7 +51,7 @@ TEST(Superpose, RecoversAMotionAndAgreesWithTheSvd) {
   for (const int n : {3, 4, 10, 1000})
     for (const double noise : {0.0, 0.1, 20.0}) {
       const Eigen::Matrix3Xd a = 10.0 * Eigen::Matrix3Xd::Random(3, n);
-      const RigidMotion m = random_motion(random, 2.0 + n % 3 * 0.5, 30.0);
+      const RigidMotion m = random_turn(random, 2.0 + n % 3 * 0.5, 30.0);
       const Eigen::Matrix3Xd b = m * a + noise * Eigen::Matrix3Xd::Random(3, n);
       const Superposition s = superpose(a, b);
       auto from = columns(a);

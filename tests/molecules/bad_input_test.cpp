@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "molecules/temporary_file.hpp"
+#include "helpers/temporary_file.hpp"
+#include "molecules/pdb_lines.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/read_molecule.hpp"
 
@@ -12,9 +13,9 @@ namespace {
 
 using test::backbone;
 using test::pdb_line;
-using test::TemporaryFile;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using tests::TemporaryFile;
 
 std::string error_of(const std::string& spec) {
   try {

@@ -10,7 +10,8 @@
 #include <boost/iostreams/filtering_stream.hpp>
 #include <thread>
 
-#include "molecules/temporary_file.hpp"
+#include "helpers/temporary_file.hpp"
+#include "molecules/pdb_lines.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
@@ -18,10 +19,10 @@ namespace {
 
 using test::backbone;
 using test::pdb_line;
-using test::TemporaryFile;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::TemporaryFile;
 
 const std::string kSamples = std::string(MORTISE_SOURCE_DIR) + "/molecules/";
 

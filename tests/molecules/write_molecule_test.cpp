@@ -6,16 +6,16 @@
 
 #include <cstdlib>
 
+#include "helpers/temporary_file.hpp"
 #include "molecules/hybrid36.hpp"
-#include "molecules/temporary_file.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/read_molecule.hpp"
 
 namespace mortise {
 namespace {
 
-using test::TemporaryFile;
 using testing::HasSubstr;
+using tests::TemporaryFile;
 
 const RigidMotion kMotion = {canonical(Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1)),
                              Eigen::Vector3d(-30.25, 111.5, 7.125)};

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "molecules/temporary_file.hpp"
+#include "helpers/temporary_file.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/read_part.hpp"
 #include "parts/shapes.hpp"
@@ -12,8 +12,8 @@
 namespace mortise {
 namespace {
 
-using test::TemporaryFile;
 using testing::HasSubstr;
+using tests::TemporaryFile;
 
 RigidMotion some_motion() {
   RigidMotion m;

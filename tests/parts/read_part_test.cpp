@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "molecules/temporary_file.hpp"
+#include "helpers/temporary_file.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "parts/shapes.hpp"
@@ -19,8 +19,8 @@
 namespace mortise {
 namespace {
 
-using test::TemporaryFile;
 using testing::HasSubstr;
+using tests::TemporaryFile;
 
 const std::string kPin = MORTISE_SOURCE_DIR "/parts/round_peg_pin";
 

@@ -29,10 +29,10 @@ std::vector<RigidMotion> touching_poses(std::mt19937& random, int count, double 
   }
   std::uniform_int_distribution<std::size_t> pick(0, places.size() - 1);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d axis{normal(random), normal(random), normal(random)};
+    const Eigen::Vector3d axis = tests::random_vector(random);
     const RigidMotion step{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * normal(random), axis.normalized())),
-        Eigen::Vector3d{normal(random), normal(random), normal(random)}};
+        tests::random_vector(random)};
     poses.push_back(compose(step, places[pick(random)]));
   }
   return poses;

@@ -42,10 +42,10 @@ std::vector<RigidMotion> random_poses(std::mt19937& random, int count, double sp
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<std::size_t> pick(0, centres.size() - 1);
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d axis{normal(random), normal(random), normal(random)};
+    const Eigen::Vector3d axis = tests::random_vector(random);
     const RigidMotion step{
         Eigen::Quaterniond(Eigen::AngleAxisd(0.05 * spread * normal(random), axis.normalized())),
-        0.4 * spread * Eigen::Vector3d{normal(random), normal(random), normal(random)}};
+        0.4 * spread * tests::random_vector(random)};
     poses.push_back(compose(step, centres[pick(random)]));
     poses.back().translation += 0.1 * axis;
   }

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "mortise/core/rigid_motion.hpp"
@@ -18,22 +17,6 @@ namespace mortise::reference {
 
 inline Eigen::Quaterniond column(const Eigen::Matrix4Xd& quaternions, Eigen::Index i) {
   return {quaternions(0, i), quaternions(1, i), quaternions(2, i), quaternions(3, i)};
-}
-
-inline Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
-  return canonical(Eigen::Quaterniond(w, x, y, z));
-}
-
-inline Eigen::Matrix4Xd random_rotations(Eigen::Index count, unsigned seed) {
-  std::mt19937_64 random(seed);
-  Eigen::Matrix4Xd quaternions(4, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Quaterniond q = random_rotation(random);
-    quaternions.col(i) << q.w(), q.x(), q.y(), q.z();
-  }
-  return quaternions;
 }
 
 /// Angle from `q` to the nearest column, by trying all.

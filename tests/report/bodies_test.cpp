@@ -44,7 +44,7 @@ class ReportInputs : public ::testing::Test {
     }
   }
 
-  ScratchDirectory scratch_;
+  tests::ScratchDirectory scratch_;
   mortise::Run run_;
   SearchPlaces places_;
 };

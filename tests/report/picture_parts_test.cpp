@@ -111,7 +111,7 @@ TEST(PartView, IsARotationWithTheMovingPartUpward) {
     Eigen::Matrix2Xd outline(2, 4);
     outline << 0, 5, 5, 0, 0, 0, 4, 4;
     add_prism(box, outline, 0.0, 3.0);
-    const Eigen::Quaterniond turn = random_rotation(random);
+    const Eigen::Quaterniond turn = tests::random_rotation(random);
     box.vertices = turn.toRotationMatrix() * box.vertices;
     for (const Eigen::Vector3d& axis :
          {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1)}) {

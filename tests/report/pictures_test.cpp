@@ -83,7 +83,7 @@ TEST(PovrayScene, RefusesEmptyBodiesAndSizes) {
 
 TEST(Pictures, AreRenderedByPovray) {
   if (!runs({"povray", "--version"})) GTEST_SKIP() << "povray is not installed";
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   const PictureOptions options = {.width = 64, .height = 48, .threads = 1};
   for (const ReportBodies& bodies : {protease(), plate_and_pin()}) {
     render_scene(povray_scene(bodies, {}, options), scratch / "pose.png", options);
@@ -102,7 +102,7 @@ class Plots : public ::testing::Test {
     if (!runs({"/usr/bin/python3", "-I", "-c", "import matplotlib"}))
       GTEST_SKIP() << "matplotlib is not installed";
   }
-  ScratchDirectory scratch_;
+  tests::ScratchDirectory scratch_;
 };
 
 TEST_F(Plots, OfScoresAndWithMetricsOfTheFunnelAndTheBestOfTheFirst) {

@@ -131,7 +131,7 @@ inline Run report_run(const ReportBodies& bodies, int count, unsigned seed = 1) 
         near ? canonical(Eigen::Quaterniond(1.0, spread * normal(random), spread * normal(random),
                                             spread * normal(random))
                              .normalized())
-             : random_rotation(random);
+             : tests::random_rotation(random);
     const Eigen::Vector3d direction =
         near ? Eigen::Vector3d((moving_centre - fixed_centre).normalized())
              : Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();

@@ -24,7 +24,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   const ReportBodies bodies = protease();
   const mortise::Run run = report_run(bodies, 20);
   const ReportFiles result = write_report(run, bodies, scratch / "a/b", {.structures = 2});
@@ -52,7 +52,7 @@ TEST(WriteReport, WritesWhatItListsAndPosesWhereTheyBelong) {
 }
 
 TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   ReportBodies bodies = protease();
   for (Atom& atom : bodies.moving.molecule.atoms) atom.chain = "LONG";
   const ReportFiles cif = write_report(report_run(bodies, 3), bodies, scratch / "cif");
@@ -65,7 +65,7 @@ TEST(WriteReport, WritesMmcifWherePdbHasNoRoomAndTablesWithoutPoses) {
 }
 
 TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   const ReportBodies bodies = plate_and_pin();
   const mortise::Run run = report_run(bodies, 4);
   const ReportFiles result = write_report(run, bodies, scratch / "parts", {.structures = 2});
@@ -77,7 +77,7 @@ TEST(WriteReport, WritesPartsAsStlWhereTheyBelong) {
 }
 
 TEST(WriteReport, GoesOnWithoutStructures) {
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   ReportBodies bodies = protease();
   const mortise::Run run = report_run(bodies, 4);
   bodies.moving = {};
@@ -88,7 +88,7 @@ TEST(WriteReport, GoesOnWithoutStructures) {
 }
 
 TEST(WriteReport, RefusesADirectoryThatCannotBe) {
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   write_file_atomically(scratch / "file", "here");
   const ReportBodies bodies = protease();
   EXPECT_THROW((void)write_report(report_run(bodies, 1), bodies, scratch / "file/report"),
@@ -124,7 +124,7 @@ std::string in_pymol(const std::string& directory) {
 
 TEST(ViewerScripts, RunInPymol) {
   if (!std::filesystem::exists("/usr/bin/pymol")) GTEST_SKIP() << "there is no /usr/bin/pymol";
-  const ScratchDirectory scratch;
+  const tests::ScratchDirectory scratch;
   const ReportBodies molecules = protease();
   mortise::Run run = report_run(molecules, 3);
   for (Pose& pose : run.poses.poses) pose.moving_in_fixed = {};

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/rotations/rotation_set.hpp"
 #include "reference/rotations_reference.hpp"
@@ -70,7 +71,8 @@ TEST(Coverage, GroupsMeetTheirPolytopes) {
 TEST(Coverage, AgreesWithEveryFourPoints) {
   for (const Eigen::Index count : {4, 5, 7, 10, 16})
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      const Eigen::Matrix4Xd set = reference::random_rotations(count, seed);
+      std::mt19937_64 random(seed);
+      const Eigen::Matrix4Xd set = tests::random_rotations(random, count);
       EXPECT_NEAR(covering_radius(set), reference::covering_radius(set), 1e-7)
           << count << " rotations, seed " << seed;
     }
@@ -86,7 +88,7 @@ TEST(Coverage, FarthestRotationIsThatFarAndNoneIsFarther) {
   double sum = 0.0, sum_sq = 0.0, most = 0.0;
   constexpr int kSamples = 20'000;
   for (int i = 0; i < kSamples; ++i) {
-    const double angle = reference::distance(set, reference::random_rotation(random));
+    const double angle = reference::distance(set, tests::random_rotation(random));
     most = std::max(most, angle);
     sum += angle;
     sum_sq += angle * angle;

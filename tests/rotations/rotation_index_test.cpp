@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/rotations/rotation_set.hpp"
 #include "reference/rotations_reference.hpp"
@@ -19,7 +20,7 @@ TEST(RotationIndex, AgreesWithTryingAllMembers) {
     const Eigen::Matrix4Xd set = super_fibonacci_rotations(count);
     const RotationIndex index(set);
     for (int trial = 0; trial < 20; ++trial) {
-      Eigen::Quaterniond q = reference::random_rotation(random);
+      Eigen::Quaterniond q = tests::random_rotation(random);
       if (trial % 2 == 1) q.coeffs() = -q.coeffs();
       if (trial == 0) q = reference::column(set, count / 2);
       for (const double angle : {0.0, 0.05, 0.3, 1.0, 2.5, std::numbers::pi}) {

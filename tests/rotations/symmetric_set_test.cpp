@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/rotations/coverage.hpp"
 #include "reference/rotations_reference.hpp"
 #include "rotations/groups.hpp"
@@ -19,7 +20,7 @@ namespace {
 Rotations spread_representatives(SymmetricSet& set, std::size_t count, unsigned seed) {
   std::mt19937_64 random(seed);
   Rotations p(count);
-  for (Eigen::Quaterniond& q : p) q = reference::random_rotation(random);
+  for (Eigen::Quaterniond& q : p) q = tests::random_rotation(random);
   for (int step = 0; step < 60; ++step) {
     const Eigen::VectorXd gradient = set.evaluate(p, 8.0).gradient;
     const double scale = 0.1 * set.ball() / gradient.lpNorm<Eigen::Infinity>();

@@ -9,15 +9,14 @@
 #include <cmath>
 #include <random>
 
+#include "helpers/random_motions.hpp"
+
 namespace mortise {
 namespace {
 
 // A box's six face normals, turned at random: some products with themselves round to more than 1.
 Directions turned_box(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const Eigen::Quaterniond q =
-      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
-          .normalized();
+  const Eigen::Quaterniond q = tests::random_rotation(random);
   Directions result;
   for (int axis = 0; axis < 3; ++axis)
     for (const double way : {1.0, -1.0})

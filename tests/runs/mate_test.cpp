@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <memory>
 
+#include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/rotation_vector.hpp"
@@ -83,7 +84,7 @@ TEST(ContactEnergy, GradientMeetsCentralDifferences) {
   const ContactPair pair = contact_pair(0.25);
   std::mt19937 random(8);
   for (int i = 0; i < 6; ++i) {
-    const RigidMotion pose = testing_bodies::random_motion(random, 0.15, 0.3);
+    const RigidMotion pose = tests::random_turn(random, 0.15, 0.3);
     const Eigen::Vector3d centre(1.0, 2.0, 3.0);
     const double length = 2.5;
     const ContactEnergy here = pair.energy(pose, 0.4, 1.5, 1.0, centre, length);
@@ -114,7 +115,7 @@ TEST(ContactEnergy, DescentIsNeverWorseAndReachesTheSeat) {
   std::mt19937 random(9);
   int seated = 0;
   for (int i = 0; i < 20; ++i) {
-    const RigidMotion start = testing_bodies::random_motion(random, 0.1, 0.3);
+    const RigidMotion start = tests::random_turn(random, 0.1, 0.3);
     RigidMotion pose = start;
     for (const double sigma : {0.3, 0.15, 0.08}) {
       const RigidMotion next = pair.descend(pose, sigma, 2.0, 1.0, 15);
@@ -145,7 +146,7 @@ TEST(ContactFit, OfTheSeatIsItsContactArea) {
 
 TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
   std::mt19937 random(11);
-  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
+  const RigidMotion start = tests::random_turn(random, 2.5, 10.0);
   const Part moving = tenon_plate(start);
   const SearchPlan plan = plan_mate(mortise_block(), moving, small_options());
   const PoseList list = ranked(plan);
@@ -167,7 +168,7 @@ TEST(Mating, FindsTheTenonInItsMortiseFromARandomStart) {
 // By the skeletal densities nearly alone: the skin's share of the score is a hundredth.
 TEST(Mating, FindsTheTenonBySkeletalDensityToo) {
   std::mt19937 random(13);
-  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
+  const RigidMotion start = tests::random_turn(random, 2.5, 10.0);
   Part fixed = mortise_block();
   Part moving = tenon_plate(start);
   fixed.solid = std::make_shared<MeshSolid>(fixed.mesh);
@@ -220,7 +221,7 @@ TEST(Mating, DoesNotDependOnThreadsOrOnBeingStopped) {
 
 TEST(Mating, TurnsAboutAGivenAxisOnly) {
   std::mt19937 random(12);
-  const RigidMotion start = testing_bodies::random_motion(random, 2.5, 10.0);
+  const RigidMotion start = tests::random_turn(random, 2.5, 10.0);
   const Part moving = tenon_plate(start);
   MateOptions options = small_options();
   options.rotations = 36;

@@ -9,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/contact_types.hpp"
 #include "reference/linear_maps.hpp"
@@ -35,10 +36,8 @@ TypedPoints random_body(int count, double radius, int types, std::uint32_t seed)
 }
 
 RigidMotion random_contact(double distance, std::mt19937& generator) {
-  std::normal_distribution<double> normal;
-  const Eigen::Vector3d direction(normal(generator), normal(generator), normal(generator));
-  return {canonical({normal(generator), normal(generator), normal(generator), normal(generator)}),
-          distance * direction.normalized()};
+  const Eigen::Vector3d direction = tests::random_vector(generator).normalized();
+  return {tests::random_rotation(generator), distance * direction};
 }
 
 TEST(ContactKernels, StepsByHand) {

@@ -32,10 +32,9 @@ Knots enlarged(Knots knots, double offset) {
 
 std::vector<RigidMotion> touching_poses(std::mt19937& random, int count) {
   std::vector<RigidMotion> poses;
-  std::normal_distribution<double> normal;
   for (int i = 0; i < count; ++i) {
     RigidMotion pose = random_motion(random, 1.0);
-    const Eigen::Vector3d direction{normal(random), normal(random), normal(random)};
+    const Eigen::Vector3d direction = tests::random_vector(random);
     pose.translation = Eigen::Vector3d(1, 2, 3) + (8.0 + 0.4 * i) * direction.normalized();
     poses.push_back(pose);
   }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small made-up bodies and rotations for the tests of the search. Braces where random numbers are
-// drawn: unlike arguments in parentheses they are evaluated in order, so all compilers agree.
+// Small made-up bodies for the tests of the search. Random numbers are drawn in braces, which are
+// evaluated in order.
 #pragma once
 
 #include <random>
 #include <vector>
 
+#include "helpers/random_motions.hpp"
 #include "mortise/core/knots.hpp"
 #include "mortise/core/rigid_motion.hpp"
 #include "mortise/rotations/rotation_set.hpp"
@@ -35,20 +36,8 @@ inline Knots moved(const RigidMotion& motion, Knots knots) {
   return knots;
 }
 
-inline RigidMotion random_motion(std::mt19937& random, double step) {
-  std::normal_distribution<double> normal;
-  const Eigen::Quaterniond q{normal(random), normal(random), normal(random), normal(random)};
-  return {canonical(q), step * Eigen::Vector3d{normal(random), normal(random), normal(random)}};
-}
-
-inline Eigen::Matrix4Xd random_rotations(std::mt19937& random, int count) {
-  Eigen::Matrix4Xd result(4, count);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Quaterniond q = random_motion(random, 0.0).rotation;
-    result.col(i) << q.w(), q.x(), q.y(), q.z();
-  }
-  return result;
-}
+using tests::random_motion;
+using tests::random_rotations;
 
 inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 inline Eigen::Vector4d row_of(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::sample_candidates;
 using testing::sample_run;
-using testing::ScratchDirectory;
+using tests::ScratchDirectory;
 
 std::vector<std::string> names_in(const fs::path& directory) {
   std::vector<std::string> names;

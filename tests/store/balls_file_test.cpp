@@ -12,7 +12,7 @@
 namespace mortise {
 namespace {
 
-using testing::ScratchDirectory;
+using tests::ScratchDirectory;
 
 std::string error_of(std::string_view text) {
   try {

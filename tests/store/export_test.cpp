@@ -21,7 +21,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::sample_run;
-using testing::ScratchDirectory;
+using tests::ScratchDirectory;
 
 const std::string kReceptor = std::string(MORTISE_SOURCE_DIR) + "/molecules/1hpv_receptor.pdb";
 const std::string kLigand = std::string(MORTISE_SOURCE_DIR) + "/molecules/1hpv_ligand.pdb";

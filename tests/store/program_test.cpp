@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise export and mortise info as a user runs them: output, files, exit codes, one-line errors.
-#include <gmock/gmock.h>
-#include <sys/wait.h>
+#include "helpers/program.hpp"
 
-#include <cstdio>
+#include <gmock/gmock.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -19,14 +19,9 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using tests::Outcome;
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string error;
-};
-
-class Program : public ::testing::Test {
+class Program : public tests::ProgramTest {
  protected:
   Program() {
     const std::string molecules = std::string(MORTISE_SOURCE_DIR) + "/molecules/";
@@ -41,31 +36,6 @@ class Program : public ::testing::Test {
     write_run(scratch_ / "run.h5", run_);
   }
 
-  // Arguments as the shell takes them, in the scratch directory.
-  Outcome mortise(const std::string& arguments) {
-    Outcome result;
-    const std::string command = "cd '" + scratch_.path().string() + "' && '" + MORTISE_PROGRAM +
-                                "' " + arguments + " 2>.stderr";
-    FILE* pipe = ::popen(command.c_str(), "r");
-    char buffer[4096];
-    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-      result.out.append(buffer, n);
-    const int status = ::pclose(pipe);
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    result.error = read_whole_file(scratch_ / ".stderr");
-    return result;
-  }
-
-  void expect_user_error(const std::string& arguments, const std::string& message) {
-    const Outcome outcome = mortise(arguments);
-    EXPECT_EQ(outcome.code, 1) << arguments;
-    EXPECT_THAT(outcome.error, AllOf(StartsWith("mortise: error: "), HasSubstr(message)))
-        << arguments;
-    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-    EXPECT_EQ(outcome.out, "") << arguments;
-  }
-
-  const testing::ScratchDirectory scratch_;
   mortise::Run run_;
 };
 

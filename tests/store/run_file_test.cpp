@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using testing::sample_candidates;
 using testing::sample_knots;
 using testing::sample_run;
-using testing::ScratchDirectory;
+using tests::ScratchDirectory;
 
 void put(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;

@@ -10,16 +10,11 @@
 #include <random>
 #include <string>
 
+#include "helpers/random_motions.hpp"
 #include "helpers/scratch_directory.hpp"
 #include "mortise/store/run_file.hpp"
 
 namespace mortise::testing {
-
-inline Eigen::Quaterniond random_rotation(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return canonical(
-      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)));
-}
 
 inline Knots sample_knots(int count, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.5, 30.0);
@@ -47,14 +42,14 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
                "a.pdb:A",
                std::string(64, 'a'),
                sample_knots(40, random),
-               {random_rotation(random), Eigen::Vector3d(1, 2, 3)},
+               {tests::random_rotation(random), Eigen::Vector3d(1, 2, 3)},
                "angstrom",
                "molecule"};
   run.moving = {"b.pdb",
                 "b.pdb",
                 std::string(64, 'b'),
                 sample_knots(30, random),
-                {random_rotation(random), Eigen::Vector3d(-4, 5, 6)},
+                {tests::random_rotation(random), Eigen::Vector3d(-4, 5, 6)},
                 "angstrom",
                 "molecule"};
   run.rotations.covering_radius = 0.22;
@@ -62,14 +57,14 @@ inline Run sample_run(int pose_count = 5, unsigned seed = 1) {
   run.rotations.done.assign(50, 1);
   run.rotations.done[3] = 0;
   for (int i = 0; i < 50; ++i) {
-    const Eigen::Quaterniond q = random_rotation(random);
+    const Eigen::Quaterniond q = tests::random_rotation(random);
     run.rotations.quaternions.col(i) = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
   }
   run.poses.channel_names = {"shape", "electrostatics"};
   run.metrics = {{"interface_rmsd", {}}, {"fnat", {}}};
   for (int i = 0; i < pose_count; ++i) {
     Pose pose;
-    pose.moving_in_fixed = {random_rotation(random),
+    pose.moving_in_fixed = {tests::random_rotation(random),
                             Eigen::Vector3d(uniform(random), uniform(random), uniform(random))};
     pose.score = 1000.0 / (i + 1);
     pose.channels = {pose.score - 0.1, 0.1};

@@ -1,38 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that lives as long as its object, and PDB lines to fill it with.
+// PDB lines to fill a file with.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace mortise::test {
-
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& content) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "mortise-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-    folder_ = pattern;
-    path_ = (folder_ / name).string();
-    std::ofstream(path_, std::ios::binary) << content;
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::filesystem::path folder_;
-  std::string path_;
-};
 
 struct PdbLine {
   const char* record = "ATOM";
