@@ -8,6 +8,7 @@
 #include "mortise/core/threads.hpp"
 #include "mortise/fourier/nfft.hpp"
 #include "mortise/kernels/compressed_radius.hpp"
+#include "search/real_products.hpp"
 
 namespace mortise {
 namespace {
@@ -81,54 +82,45 @@ Components make_components(const std::vector<Channel>& channels,
     i = next++;
   }
 
-  for (const Channel& channel : channels)
-    for (const bool imaginary : {false, true}) {
-      const auto part = [&](const Knots& knots) -> Eigen::VectorXd {
-        return imaginary ? knots.weights.imag().eval() : knots.weights.real().eval();
-      };
-      const Eigen::VectorXd fixed_weights = part(channel.fixed),
-                            moving_weights = part(channel.moving);
-      if (channel.weight == 0.0 || fixed_weights.isZero(0.0) || moving_weights.isZero(0.0))
-        continue;
-
-      // sum_i weights_i transform(k, r_i) exp(-2 pi i k.x_i) over all modes.
-      const CompressedRadius of_fixed =
-          compress(channel.fixed, channel.fixed_transform, k_max, {0.0}, options);
-      const Eigen::Matrix3Xd points =
-          search_from_fixed * Eigen::Matrix3Xd(channel.fixed.points.topRows<3>());
-      const Eigen::MatrixXd fixed_shares = shares_of(channel.fixed, fixed_weights, of_fixed);
-      const Eigen::MatrixXd fixed_factors = factors_of(of_fixed, 0, frequencies, options);
-      HalfSpectrum field(frequencies.of_mode.size());
-      for (Eigen::Index q = 0; q < fixed_shares.cols(); ++q) {
-        const auto modes = nfft.transform(points, Eigen::VectorXd(fixed_shares.col(q)));
-        for (std::size_t n = 0; n < field.size(); ++n)
-          field[n] += modes[n] * fixed_factors(q, frequencies.of_mode[n]);
-      }
-
-      // Re(c d) = Re c Re d - Im c Im d; 1 / volume is the inverse transform's.
-      const double factor = (imaginary ? -1.0 : 1.0) * channel.weight / volume;
-      const CompressedRadius of_moving =
-          compress(channel.moving, channel.moving_transform, k_max, options.offsets, options);
-      const Eigen::MatrixXd shares = shares_of(channel.moving, moving_weights, of_moving);
-      std::vector<Eigen::MatrixXd> factors;
-      for (std::size_t o = 0; o < options.offsets.size(); ++o)
-        factors.push_back(factors_of(of_moving, o, frequencies, options));
-      for (Eigen::Index q = 0; q < shares.cols(); ++q) {
-        Component component{Eigen::VectorXf::Zero(result.points.cols()), {}};
-        for (Eigen::Index j = 0; j < channel.moving.size(); ++j)
-          component.weights[index.at({channel.moving.points(0, j), channel.moving.points(1, j),
-                                      channel.moving.points(2, j)})] +=
-              static_cast<float>(shares(j, q));
-        for (const Eigen::MatrixXd& of_offset : factors) {
-          HalfSpectrum& spectrum = component.spectra.emplace_back(field);
-          for (std::size_t n = 0; n < spectrum.size(); ++n)
-            spectrum[n] *= factor * of_offset(q, frequencies.of_mode[n]);
-          for (std::size_t n = 0; n < spectrum.size(); ++n)
-            spectrum[n] *= options.low_pass(frequencies.lengths[frequencies.of_mode[n]]);
-        }
-        result.parts.push_back(std::move(component));
-      }
+  for (const RealProduct& product : real_products(channels)) {
+    const Channel& channel = *product.channel;
+    // sum_i weights_i transform(k, r_i) exp(-2 pi i k.x_i) over all modes.
+    const CompressedRadius of_fixed =
+        compress(channel.fixed, channel.fixed_transform, k_max, {0.0}, options);
+    const Eigen::Matrix3Xd points =
+        search_from_fixed * Eigen::Matrix3Xd(channel.fixed.points.topRows<3>());
+    const Eigen::MatrixXd fixed_shares = shares_of(channel.fixed, product.fixed, of_fixed);
+    const Eigen::MatrixXd fixed_factors = factors_of(of_fixed, 0, frequencies, options);
+    HalfSpectrum field(frequencies.of_mode.size());
+    for (Eigen::Index q = 0; q < fixed_shares.cols(); ++q) {
+      const auto modes = nfft.transform(points, Eigen::VectorXd(fixed_shares.col(q)));
+      for (std::size_t n = 0; n < field.size(); ++n)
+        field[n] += modes[n] * fixed_factors(q, frequencies.of_mode[n]);
     }
+
+    const double factor = product.factor / volume;  // 1 / volume is the inverse transform's
+    const CompressedRadius of_moving =
+        compress(channel.moving, channel.moving_transform, k_max, options.offsets, options);
+    const Eigen::MatrixXd shares = shares_of(channel.moving, product.moving, of_moving);
+    std::vector<Eigen::MatrixXd> factors;
+    for (std::size_t o = 0; o < options.offsets.size(); ++o)
+      factors.push_back(factors_of(of_moving, o, frequencies, options));
+    for (Eigen::Index q = 0; q < shares.cols(); ++q) {
+      Component component{Eigen::VectorXf::Zero(result.points.cols()), {}};
+      for (Eigen::Index j = 0; j < channel.moving.size(); ++j)
+        component.weights[index.at({channel.moving.points(0, j), channel.moving.points(1, j),
+                                    channel.moving.points(2, j)})] +=
+            static_cast<float>(shares(j, q));
+      for (const Eigen::MatrixXd& of_offset : factors) {
+        HalfSpectrum& spectrum = component.spectra.emplace_back(field);
+        for (std::size_t n = 0; n < spectrum.size(); ++n)
+          spectrum[n] *= factor * of_offset(q, frequencies.of_mode[n]);
+        for (std::size_t n = 0; n < spectrum.size(); ++n)
+          spectrum[n] *= options.low_pass(frequencies.lengths[frequencies.of_mode[n]]);
+      }
+      result.parts.push_back(std::move(component));
+    }
+  }
   return result;
 }
 

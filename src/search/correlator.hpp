@@ -76,13 +76,6 @@ class Correlator {
   /// y and z back: the scores of one offset into workspace.box.
   void backward_yz(int offset, Workspace& workspace) const;
 
-  [[nodiscard]] const std::array<int, 3>& size() const noexcept { return size_; }
-  [[nodiscard]] double spacing() const noexcept { return spacing_; }
-  /// Score cell (i, j, k) is the placement with the moving origin at (i, j, k) + origin_cell(), in
-  /// grid steps, modulo the box.
-  [[nodiscard]] std::array<double, 3> origin_cell() const noexcept { return origin_; }
-  [[nodiscard]] const SpreadKernel& kernel() const noexcept { return kernel_; }
-
  private:
   std::array<int, 3> size_, corner_;
   std::array<double, 3> origin_;

@@ -6,6 +6,7 @@
 
 #include "mortise/fourier/nfft.hpp"
 #include "search/frequencies.hpp"
+#include "search/real_products.hpp"
 
 namespace mortise {
 namespace {
@@ -68,27 +69,20 @@ LiftedParts make_lifted_parts(const std::vector<Channel>& channels,
       static_cast<double>(size[0]) * size[1] * size[2] * spacing * spacing * spacing;
   LiftedParts result;
   result.tolerance = std::max(kLeastSumTolerance, kSumShare * options.radius_tolerance);
-  for (const Channel& channel : channels)
-    for (const bool imaginary : {false, true}) {
-      const auto part = [&](const Knots& knots) -> Eigen::VectorXd {
-        return imaginary ? knots.weights.imag().eval() : knots.weights.real().eval();
-      };
-      const Eigen::VectorXd fixed_weights = part(channel.fixed),
-                            moving_weights = part(channel.moving);
-      if (channel.weight == 0.0 || fixed_weights.isZero(0.0) || moving_weights.isZero(0.0))
-        continue;
-      const ConeSeries of_fixed =
-          cone_of(channel.fixed, channel.fixed_transform, k_max, {0.0}, options);
-      LiftedPart lifted{
-          radius_first(channel.moving.points), moving_weights.cast<float>(),
-          cone_of(channel.moving, channel.moving_transform, k_max, options.offsets, options),
-          field_of(channel.fixed, fixed_weights, of_fixed, search_from_fixed, size, spacing,
-                   frequencies, options)};
-      const double factor = (imaginary ? -1.0 : 1.0) * channel.weight / volume;
-      for (std::size_t n = 0; n < lifted.fixed.size(); ++n)
-        lifted.fixed[n] *= factor * options.low_pass(frequencies.lengths[frequencies.of_mode[n]]);
-      result.parts.push_back(std::move(lifted));
-    }
+  for (const RealProduct& product : real_products(channels)) {
+    const Channel& channel = *product.channel;
+    const ConeSeries of_fixed =
+        cone_of(channel.fixed, channel.fixed_transform, k_max, {0.0}, options);
+    LiftedPart lifted{
+        radius_first(channel.moving.points), product.moving.cast<float>(),
+        cone_of(channel.moving, channel.moving_transform, k_max, options.offsets, options),
+        field_of(channel.fixed, product.fixed, of_fixed, search_from_fixed, size, spacing,
+                 frequencies, options)};
+    const double factor = product.factor / volume;
+    for (std::size_t n = 0; n < lifted.fixed.size(); ++n)
+      lifted.fixed[n] *= factor * options.low_pass(frequencies.lengths[frequencies.of_mode[n]]);
+    result.parts.push_back(std::move(lifted));
+  }
   return result;
 }
 
