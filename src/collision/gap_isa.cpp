@@ -8,20 +8,16 @@
 // leaves Im(P conj G), spread over lanes that only have to be added.
 #include "collision/gap_isa.hpp"
 
+#include "core/isa_vector.hpp"
+
 namespace mortise::MORTISE_ISA {
 extern const GapTable kGapTable;
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 16;
-#elif defined(__AVX__)
-constexpr int kLanes = 8;
-#else
-constexpr int kLanes = 4;
-#endif
+constexpr int kLanes = kVectorBytes / 4;
 constexpr int kParts = 16 / kLanes;
-using Vector __attribute__((vector_size(kLanes * sizeof(float)))) = float;
+using Vector __attribute__((vector_size(kVectorBytes))) = float;
 using Eight __attribute__((vector_size(8 * sizeof(float)))) = float;
 using Sixteen __attribute__((vector_size(16 * sizeof(float)))) = float;
 
@@ -59,7 +55,7 @@ struct Weights {
                                                    14, 14, 14, 15, 15, 15, 15)
                          : __builtin_shufflevector(w.yz, w.yz, 8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10,
                                                    10, 11, 11, 11, 11);
-#elif defined(__AVX__)
+#elif defined(__AVX2__)
   r.part[0] = derivative ? __builtin_shufflevector(w.z, w.z, 4, 4, 4, 4, 5, 5, 5, 5)
                          : __builtin_shufflevector(w.z, w.z, 0, 0, 0, 0, 1, 1, 1, 1);
   r.part[1] = derivative ? __builtin_shufflevector(w.z, w.z, 6, 6, 6, 6, 7, 7, 7, 7)
@@ -79,7 +75,7 @@ template <int First>
   constexpr int a = First, b = First + 1;
 #if defined(__AVX512F__)
   return __builtin_shufflevector(w.yz, w.yz, a, a, b, b, a, a, b, b, a, a, b, b, a, a, b, b);
-#elif defined(__AVX__)
+#elif defined(__AVX2__)
   return __builtin_shufflevector(w.y, w.y, a, a, b, b, a, a, b, b);
 #else
   return Vector{w.y[a], w.y[a], w.y[b], w.y[b]};
@@ -88,7 +84,7 @@ template <int First>
 
 // (p[0], p[1]) repeated.
 [[gnu::always_inline]] inline Vector pair(const float* p) {
-  using Longs __attribute__((vector_size(kLanes * sizeof(float)))) = long long;
+  using Longs __attribute__((vector_size(kVectorBytes))) = long long;
   long long both;
   __builtin_memcpy(&both, p, sizeof both);
   const Longs repeated = both | Longs{};

@@ -6,30 +6,18 @@
 // exchange of real and imaginary part.
 #include "fourier/lane_fft_isa.hpp"
 
+#include "core/isa_vector.hpp"
+
 namespace mortise::MORTISE_ISA {
 extern const LaneFftTable kLaneFftTable;
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 16;
-#elif defined(__AVX2__)
-constexpr int kLanes = 8;
-#else
-constexpr int kLanes = 4;
-#endif
+constexpr int kLanes = kVectorBytes / 4;
 
-using Lanes __attribute__((vector_size(4 * kLanes))) = float;
-using Doubles __attribute__((vector_size(4 * kLanes))) = double;
+using Lanes __attribute__((vector_size(kVectorBytes))) = float;
+using Doubles __attribute__((vector_size(kVectorBytes))) = double;
 
-[[gnu::always_inline]] inline Lanes load(const float* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-[[gnu::always_inline]] inline void store(float* p, const Lanes& v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
 // Real and imaginary parts exchanged.
 [[gnu::always_inline]] inline Lanes swapped(const Lanes& v) {
 #if defined(__AVX512F__)
@@ -194,7 +182,7 @@ void pass(const Pass& w) {
       Lanes a[R];
       each<0, R - 1>([&](auto t) __attribute__((always_inline)) {
         const std::ptrdiff_t at = q + s * (p + m * decltype(t)::value);
-        a[decltype(t)::value] = at < w.in_count ? load(w.in + at * w.in_stride) : Lanes{};
+        a[decltype(t)::value] = at < w.in_count ? load<Lanes>(w.in + at * w.in_stride) : Lanes{};
       });
       dft<Forward, R>(a);
       each<0, R - 1>([&](auto u) __attribute__((always_inline)) {
@@ -315,7 +303,7 @@ void gather_rows(const float* in, std::ptrdiff_t stride, std::ptrdiff_t rows, st
     Lanes a[kLanes];
     each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
       constexpr int kI = decltype(i)::value;
-      a[kI] = kI < rows ? load(in + kI * stride + z) : Lanes{};
+      a[kI] = kI < rows ? load<Lanes>(in + kI * stride + z) : Lanes{};
     });
     transpose<kLanes>(a);
     each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
@@ -333,7 +321,7 @@ void scatter_rows(const float* in, std::ptrdiff_t rows, std::ptrdiff_t n, float*
   for (; z + kLanes <= n; z += kLanes) {
     Lanes a[kLanes];
     each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
-      a[decltype(i)::value] = load(in + (z + decltype(i)::value) * kLanes);
+      a[decltype(i)::value] = load<Lanes>(in + (z + decltype(i)::value) * kLanes);
     });
     transpose<kLanes>(a);
     each<0, kLanes - 1>([&](auto i) __attribute__((always_inline)) {
@@ -376,8 +364,9 @@ void forward_rows(const LaneFftPasses& f, const float* in, std::ptrdiff_t in_str
         const std::ptrdiff_t at = k + kI;
         Lanes sum = {}, difference = {};
         if (at <= f.n / 2) {
-          const Lanes here = load(spectra + at * kLanes);
-          const Lanes mirrored = load(spectra + (at == 0 ? 0 : f.n - at) * kLanes) * conjugate;
+          const Lanes here = load<Lanes>(spectra + at * kLanes);
+          const Lanes mirrored =
+              load<Lanes>(spectra + (at == 0 ? 0 : f.n - at) * kLanes) * conjugate;
           sum = 0.5F * (here + mirrored);
           difference = 0.5F * swapped(here - mirrored) * conjugate;
         }
@@ -408,8 +397,8 @@ void backward_rows(const LaneFftPasses& f, const float* in, std::ptrdiff_t in_st
       each<0, kPairs - 1>([&](auto i) __attribute__((always_inline)) {
         constexpr int kI = decltype(i)::value;
         const float* const row = in + (r + 2 * kI) * in_stride + 2 * k;
-        even[kI] = 2 * kI < count ? as_doubles(load(row)) : Doubles{};
-        odd[kI] = 2 * kI + 1 < count ? as_doubles(load(row + in_stride)) : Doubles{};
+        even[kI] = 2 * kI < count ? as_doubles(load<Lanes>(row)) : Doubles{};
+        odd[kI] = 2 * kI + 1 < count ? as_doubles(load<Lanes>(row + in_stride)) : Doubles{};
       });
       transpose<kPairs>(even);
       transpose<kPairs>(odd);

@@ -3,18 +3,12 @@
 // forbids here).
 #include "fourier/spread_isa.hpp"
 
+#include "core/isa_vector.hpp"
+
 namespace mortise::MORTISE_ISA {
 extern const SpreadTables kSpreadTables;
 
 namespace {
-
-#if defined(__AVX512F__)
-constexpr int kVectorBytes = 64;
-#elif defined(__AVX__)
-constexpr int kVectorBytes = 32;
-#else
-constexpr int kVectorBytes = 16;
-#endif
 
 template <class Real, int Lanes>
 struct VectorOf {
@@ -38,18 +32,6 @@ struct Layout {
   static constexpr int kBlocks = (W + kLanes - 1) / kLanes;
   static constexpr int kPadded = kLanes * kBlocks;
 };
-
-template <class V, class Real>
-[[gnu::always_inline]] inline V load(const Real* p) {
-  V v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-template <class V, class Real>
-[[gnu::always_inline]] inline void store(Real* p, const V& v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
 
 // Kernel values of one axis: piece j at `z` for all j at once.
 template <class Real, int W>

@@ -7,29 +7,15 @@
 #include <immintrin.h>  // nothing but always-inlined wrappers
 #endif
 
+#include "core/isa_vector.hpp"
+
 namespace mortise::MORTISE_ISA {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;
-#elif defined(__AVX__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
+constexpr int kLanes = kVectorBytes / 8;
 
-using Lanes __attribute__((vector_size(sizeof(double) * kLanes))) = double;
-using LaneMask __attribute__((vector_size(sizeof(double) * kLanes))) = long long;
-
-[[gnu::always_inline]] inline Lanes load(const double* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-[[gnu::always_inline]] inline void store(double* p, const Lanes& v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
+using Lanes __attribute__((vector_size(kVectorBytes))) = double;
+using LaneMask __attribute__((vector_size(kVectorBytes))) = long long;
 
 [[gnu::always_inline]] inline Lanes all(double x) { return Lanes{} + x; }
 [[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
@@ -41,7 +27,7 @@ using LaneMask __attribute__((vector_size(sizeof(double) * kLanes))) = long long
 [[gnu::always_inline]] inline unsigned bits(const LaneMask& m) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi64_mask(reinterpret_cast<const __m512i&>(m));
-#elif defined(__AVX__)
+#elif defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<const __m256d&>(m)));
 #elif defined(__x86_64__)
   return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<const __m128d&>(m)));
@@ -58,7 +44,7 @@ using LaneMask __attribute__((vector_size(sizeof(double) * kLanes))) = long long
   // The unmasked form makes gcc 12 warn of an uninitialised value of its own header.
   reinterpret_cast<__m512d&>(result) =
       _mm512_maskz_sqrt_pd(0xff, reinterpret_cast<const __m512d&>(v));
-#elif defined(__AVX__)
+#elif defined(__AVX2__)
   reinterpret_cast<__m256d&>(result) = _mm256_sqrt_pd(reinterpret_cast<const __m256d&>(v));
 #elif defined(__x86_64__)
   reinterpret_cast<__m128d&>(result) = _mm_sqrt_pd(reinterpret_cast<const __m128d&>(v));
@@ -80,7 +66,7 @@ struct Lanes3 {
 
 /// The lanes from `l` on of three rows of eight.
 [[gnu::always_inline]] inline Lanes3 load3(const double (*rows)[8], int l) {
-  return {load(rows[0] + l), load(rows[1] + l), load(rows[2] + l)};
+  return {load<Lanes>(rows[0] + l), load<Lanes>(rows[1] + l), load<Lanes>(rows[2] + l)};
 }
 [[gnu::always_inline]] inline Lanes3 minus(const Lanes3& a, const Lanes3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};

@@ -116,9 +116,9 @@ Plain along(const SkeletalKernel& kernel, double near_sq, double d, const Plain&
   Lanes re = {}, im = {};
   const double length = to - from;
   for (int k = 0; k < kSkeletalNodes; k += kLanes) {
-    const Lanes s = from + length * load(kernel.nodes + k);
+    const Lanes s = from + length * load<Lanes>(kernel.nodes + k);
     const Complex value = tail(kernel, root(near_sq + s * s));
-    const Lanes w = load(kernel.weights + k) / (d * d + s * s);
+    const Lanes w = load<Lanes>(kernel.weights + k) / (d * d + s * s);
     re += w * (value.re - least.re);
     im += w * (value.im - least.im);
   }
@@ -270,7 +270,7 @@ void add_packet(const Query& query, const TrianglePacket& packet, Complex& total
                                                  const Lanes3& r, const Lanes& t) {
   Lanes m[kTreeMoments];
   const double scale_sq = query.scale * query.scale;
-  for (int k = 0; k < kTreeMoments; ++k) m[k] = load(node.moments[k] + l);
+  for (int k = 0; k < kTreeMoments; ++k) m[k] = load<Lanes>(node.moments[k] + l);
   const Lanes xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
   const Lanes first = (m[0] * r.x + m[1] * r.y + m[2] * r.z) * scale_sq;
   const Lanes trace = (m[3] + m[4] + m[5]) * (scale_sq * query.scale);
@@ -325,12 +325,12 @@ void integrate_at(const TreeView& tree, const Query& query, double* result) {
       r.z *= query.scale;
       const Lanes t = root(dot(r, r));
       Lanes c[6];
-      for (int k = 0; k < 6; ++k) c[k] = load(node.spread[k] + l);
+      for (int k = 0; k < 6; ++k) c[k] = load<Lanes>(node.spread[k] + l);
       const Lanes along_sq = r.x * (c[0] * r.x + c[3] * r.y + c[4] * r.z) +
                              r.y * (c[1] * r.y + c[5] * r.z) + c[2] * r.z * r.z;
       const double scale_sq = query.scale * query.scale;
       const Lanes depth_sq = larger(along_sq * scale_sq / dot(r, r), all(0.0));
-      const Verdict verdict = judge(query, t, load(node.radius + l) * query.scale, depth_sq);
+      const Verdict verdict = judge(query, t, load<Lanes>(node.radius + l) * query.scale, depth_sq);
       const LaneMask smooth_lanes = verdict.error <= query.kernel.allowed;
       const unsigned there = ((1u << node.count) - 1) >> l & ((1u << kLanes) - 1);
       const unsigned wanted = ~bits(verdict.far) & there;

@@ -34,9 +34,9 @@ void look_into_packet(const TrianglePacket& packet, int index, const double* poi
     const Lanes3 p = minus(q, load3(packet.corner, l));
     const Lanes3 e1 = load3(packet.edge1, l), e2 = load3(packet.edge2, l);
     const Lanes3 n = load3(packet.normal, l);
-    Lanes d = to_edge(p, e1, load(packet.inverse_edge1_sq + l));
-    d = smaller(d, to_edge(p, e2, load(packet.inverse_edge2_sq + l)));
-    d = smaller(d, to_edge(minus(p, e1), minus(e2, e1), load(packet.inverse_edge3_sq + l)));
+    Lanes d = to_edge(p, e1, load<Lanes>(packet.inverse_edge1_sq + l));
+    d = smaller(d, to_edge(p, e2, load<Lanes>(packet.inverse_edge2_sq + l)));
+    d = smaller(d, to_edge(minus(p, e1), minus(e2, e1), load<Lanes>(packet.inverse_edge3_sq + l)));
     // The foot on the plane by its two oblique coordinates, times twice the area.
     const Lanes s = dot(cross(p, e2), n), t = dot(cross(e1, p), n);
     const Lanes twice_area = dot(cross(e1, e2), n);
@@ -78,7 +78,7 @@ void search(const TreeView& tree, const double* point, Best& best) {
       for (int axis = 0; axis < 3; ++axis) {
         const Lanes along = dot(r, load3(node.axis[axis], l));
         const Lanes gap =
-            larger((along < 0.0 ? -along : along) - load(node.half[axis] + l), all(0.0));
+            larger((along < 0.0 ? -along : along) - load<Lanes>(node.half[axis] + l), all(0.0));
         d += gap * gap;
       }
       store(distances + l, d);
@@ -163,13 +163,13 @@ double winding_at(const TreeView& tree, const double* point, double beta) {
       const Lanes3 q = {all(point[0]), all(point[1]), all(point[2])};
       const Lanes3 r = minus(load3(node.centre, l), q);
       const Lanes distance_sq = dot(r, r);
-      const Lanes reach = beta * load(node.radius + l);
+      const Lanes reach = beta * load<Lanes>(node.radius + l);
       const LaneMask far = distance_sq > reach * reach + 1e-60;  // no overflow below
       near |= (~bits(far) & ((1u << kLanes) - 1)) << l;
       const Lanes f = 1.0 / (far ? distance_sq : all(1.0));  // 1 / r^2
       const Lanes psi = f * root(f), psi1 = -3.0 * psi * f, psi2 = -5.0 * psi1 * f;
       Lanes m[kTreeMoments];
-      for (int k = 0; k < kTreeMoments; ++k) m[k] = load(node.moments[k] + l);
+      for (int k = 0; k < kTreeMoments; ++k) m[k] = load<Lanes>(node.moments[k] + l);
       const Lanes xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
       const Lanes linear = m[0] * r.x + m[1] * r.y + m[2] * r.z + m[3] + m[4] + m[5];
       const Lanes quadratic =

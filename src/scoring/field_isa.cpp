@@ -3,6 +3,7 @@
 // cmake/MortiseIsa.cmake for what that forbids here).
 #include "scoring/field_isa.hpp"
 
+#include "core/isa_vector.hpp"
 #include "scoring/contact_steps.hpp"
 
 #if defined(__AVX2__)
@@ -14,28 +15,12 @@ extern const FieldTable kFieldTable;
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 16;
-#elif defined(__AVX2__)
-constexpr int kLanes = 8;
-#else
-constexpr int kLanes = 4;
-#endif
+constexpr int kLanes = kVectorBytes / 4;
 static_assert(kPointGroup % kLanes == 0);
 
-using Floats __attribute__((vector_size(4 * kLanes))) = float;
-using Ints __attribute__((vector_size(4 * kLanes))) = std::int32_t;
+using Floats __attribute__((vector_size(kVectorBytes))) = float;
+using Ints __attribute__((vector_size(kVectorBytes))) = std::int32_t;
 
-template <class Lanes, class Value>
-[[gnu::always_inline]] inline Lanes load(const Value* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-template <class Lanes, class Value>
-[[gnu::always_inline]] inline void store(Value* p, const Lanes& v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
 [[gnu::always_inline]] inline Floats all(float x) { return Floats{} + x; }
 // NaN becomes `low`.
 [[gnu::always_inline]] inline Floats clamped(const Floats& v, float low, float high) {
