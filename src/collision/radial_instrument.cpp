@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/quadrature.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/kernels/ball.hpp"
 
@@ -24,17 +25,16 @@ constexpr int kSteps = 4800;
 // K / 3 = 15.5 (test): 4.7e-7.
 constexpr int kTransformSteps = 2048;
 
-// 4 pi Int_0^{1/2} k^2 cos^2(pi k) sin(2 pi k r) / (2 pi k r) dk by Simpson's rule, B = 1: 200
-// panels for at most 24 oscillations.
+// 4 pi Int_0^{1/2} k^2 cos^2(pi k) sin(2 pi k r) / (2 pi k r) dk, B = 1. At kReach there are 12
+// oscillations: 60 nodes are good to rounding.
 double root_kernel(double r) {
-  constexpr int kPanels = 400;
+  static const QuadratureRule rule = gauss_legendre(60, 0.0, 0.5);
   double sum = 0.0;
-  for (int i = 1; i <= kPanels; ++i) {
-    const double k = 0.5 * i / kPanels, u = 2.0 * pi * k * r;
-    const double weight = i == kPanels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-    sum += weight * k * k * std::pow(std::cos(pi * k), 2) * (u < 1e-8 ? 1.0 : std::sin(u) / u);
+  for (Eigen::Index i = 0; i < rule.nodes.size(); ++i) {
+    const double k = rule.nodes[i], u = 2.0 * pi * k * r;
+    sum += rule.weights[i] * std::pow(k * std::cos(pi * k), 2) * (u < 1e-8 ? 1.0 : std::sin(u) / u);
   }
-  return 4.0 * pi * sum * 0.5 / kPanels / 3.0;
+  return 4.0 * pi * sum;
 }
 
 // Everything for B = 1, worked out once per process.

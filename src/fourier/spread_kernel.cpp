@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "core/chebyshev.hpp"
 #include "fourier/spread_isa.hpp"
 #include "mortise/core/errors.hpp"
 
@@ -156,15 +157,11 @@ KernelPieces fit_pieces(const SpreadKernel& kernel, int stride) {
     double error = 0.0;
     for (int j = 0; j < kernel.width; ++j) {
       std::vector<double> power(degree + 1, 0.0), sample(degree + 1);
-      for (int i = 0; i <= degree; ++i)
-        sample[i] = value(j, std::cos(pi * (i + 0.5) / (degree + 1)));
-      for (int n = 0; n <= degree; ++n) {
-        double c = 0.0;
-        for (int i = 0; i <= degree; ++i)
-          c += sample[i] * std::cos(pi * n * (i + 0.5) / (degree + 1));
-        c *= (n == 0 ? 1.0 : 2.0) / (degree + 1);
-        for (int p = 0; p <= n; ++p) power[p] += c * chebyshev[n][p];
-      }
+      for (int i = 0; i <= degree; ++i) sample[i] = value(j, chebyshev_zero(i, degree + 1));
+      std::vector<double> series = chebyshev_series(sample, degree + 1);
+      series[0] *= 0.5;
+      for (int n = 0; n <= degree; ++n)
+        for (int p = 0; p <= n; ++p) power[p] += series[n] * chebyshev[n][p];
       for (int p = 0; p <= degree; ++p) pieces.coefficients[(degree - p) * stride + j] = power[p];
       for (int i = 0; i <= 4 * degree; ++i) {
         const double z = -1.0 + 0.5 * i / degree;

@@ -3,10 +3,13 @@
 #include "mortise/kernels/bump.hpp"
 
 #include <algorithm>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <boost/math/special_functions/chebyshev.hpp>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/chebyshev.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/kernels/ball.hpp"
 
@@ -27,19 +30,24 @@ double bump_below_one(double one_minus_x, double alpha) {
 }
 
 // Psi(u) = 4 pi Int_0^1 s^2 psi(s) sinc(2 u s) ds by the double exponential rule, which does not
-// mind what psi does at either end. The step resolves the oscillation of the middle.
+// mind what psi does at either end. In pieces of few oscillations: with many the rule's coarse
+// steps agree on something else.
 double psi_by_quadrature(double u, double alpha) {
-  const double h = std::min(1.0 / 48.0, 1.0 / (8.0 * u + 1.0));
-  const int steps = static_cast<int>(std::ceil(3.4 / h));
+  static boost::math::quadrature::tanh_sinh<double> rule;  // safe to share; not const in Boost 1.74
+  const int pieces = 1 + static_cast<int>(u / kLast);
   double sum = 0.0;
-  for (int i = -steps; i <= steps; ++i) {
-    const double t = i * h, e = std::exp(-pi * std::sinh(t));
-    const double s = 1.0 / (1.0 + e), one_minus_s = e / (1.0 + e);
-    const double weight = pi * std::cosh(t) * s * one_minus_s;
-    const double v = 2.0 * pi * u * s;
-    sum += weight * s * s * bump_below_one(one_minus_s, alpha) * (v < 1e-9 ? 1.0 : std::sin(v) / v);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double begin = static_cast<double>(piece) / pieces,
+                 end = static_cast<double>(piece + 1) / pieces;
+    // `to_end` is the distance to the nearer end, at the upper one positive.
+    const auto integrand = [&](double s, double to_end) {
+      const double v = 2.0 * pi * u * s;
+      const double one_minus_s = end == 1.0 && to_end > 0.0 && s > 0.5 ? to_end : 1.0 - s;
+      return s * s * bump_below_one(one_minus_s, alpha) * (v < 1e-9 ? 1.0 : std::sin(v) / v);
+    };
+    sum += rule.integrate(integrand, begin, end, 1e-13);
   }
-  return 4.0 * pi * h * sum;
+  return 4.0 * pi * sum;
 }
 
 }  // namespace
@@ -56,15 +64,12 @@ RadialKernel::RadialKernel(double alpha) : alpha_(alpha) {
   if (std::isinf(alpha)) return;
   table_.resize(kTerms * kPieces);
   for (int piece = 0; piece < kPieces; ++piece) {
-    double sample[kTerms];
+    std::vector<double> sample(kTerms);
     for (int i = 0; i < kTerms; ++i)
-      sample[i] = psi_by_quadrature(
-          (piece + 0.5 + 0.5 * std::cos(pi * (i + 0.5) / kTerms)) * kPiece, alpha);
-    for (int n = 0; n < kTerms; ++n) {
-      double c = 0.0;
-      for (int i = 0; i < kTerms; ++i) c += sample[i] * std::cos(pi * n * (i + 0.5) / kTerms);
-      table_[piece * kTerms + n] = c * (n == 0 ? 1.0 : 2.0) / kTerms;
-    }
+      sample[i] =
+          psi_by_quadrature((piece + 0.5 + 0.5 * chebyshev_zero(i, kTerms)) * kPiece, alpha);
+    const std::vector<double> series = chebyshev_series(sample, kTerms);
+    std::copy(series.begin(), series.end(), table_.begin() + piece * kTerms);
   }
 }
 
@@ -72,15 +77,8 @@ double RadialKernel::unit_transform(double u) const {
   if (table_.empty()) return ball_transform(u, 1.0);
   if (u >= kLast) return psi_by_quadrature(u, alpha_);
   const int piece = static_cast<int>(u / kPiece);
-  const double* c = table_.data() + piece * kTerms;
-  const double z = 2.0 * (u / kPiece - piece) - 1.0;
-  double a = 0.0, b = 0.0;  // Clenshaw
-  for (int n = kTerms - 1; n > 0; --n) {
-    const double next = 2.0 * z * a - b + c[n];
-    b = a;
-    a = next;
-  }
-  return z * a - b + c[0];
+  return boost::math::chebyshev_clenshaw_recurrence(table_.data() + piece * kTerms, kTerms,
+                                                    2.0 * (u / kPiece - piece) - 1.0);
 }
 
 double RadialKernel::transform(double k, double r) const {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "kernels/quadrature.hpp"
+#include "core/quadrature.hpp"
 #include "kernels/thin_svd.hpp"
 #include "mortise/core/errors.hpp"
 

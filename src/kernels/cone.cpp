@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "kernels/quadrature.hpp"
+#include "core/quadrature.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {

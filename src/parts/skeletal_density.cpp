@@ -3,13 +3,15 @@
 #include "mortise/parts/skeletal_density.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include "core/chebyshev.hpp"
 #include "core/isa.hpp"
+#include "core/quadrature.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/threads.hpp"
 #include "parts/build_triangle_tree.hpp"
@@ -37,14 +39,6 @@ namespace {
 
 using Eigen::Index;
 
-// Gauss and Legendre's rule on [0, 1].
-constexpr std::array<double, kSkeletalNodes> kNodes = {
-    0.019855071751231884, 0.10166676129318664, 0.2372337950418355, 0.4082826787521751,
-    0.5917173212478249,   0.7627662049581645,  0.8983332387068134, 0.9801449282487681};
-constexpr std::array<double, kSkeletalNodes> kWeights = {
-    0.05061426814518813, 0.1111905172266872,  0.15685332293894364, 0.18134189168918099,
-    0.18134189168918099, 0.15685332293894364, 0.1111905172266872,  0.05061426814518813};
-
 std::complex<double> kernel_at(double t, double sigma) {
   const double x = (t - 1.0) / sigma;
   const double g = std::exp(-0.5 * x * x) / (std::sqrt(2.0 * std::numbers::pi) * sigma);
@@ -52,13 +46,13 @@ std::complex<double> kernel_at(double t, double sigma) {
 }
 
 // Int_t^longest of the kernel.
-std::complex<double> tail(double t, double longest, double sigma) {
+std::complex<double> tail(double t, double longest, double sigma, const QuadratureRule& rule) {
   const int panels = 1 + static_cast<int>((longest - t) / (0.5 * std::min(sigma, 1.0)));
   const double step = (longest - t) / panels;
   std::complex<double> sum = 0.0;
   for (int p = 0; p < panels; ++p)
     for (int k = 0; k < kSkeletalNodes; ++k)
-      sum += kWeights[k] * step * kernel_at(t + (p + kNodes[k]) * step, sigma);
+      sum += rule.weights[k] * step * kernel_at(t + (p + rule.nodes[k]) * step, sigma);
   return sum;
 }
 
@@ -74,19 +68,23 @@ SkeletalKernel make_kernel(double sigma, double tolerance) {
   kernel.allowed_degree_five = std::sqrt(2.0 * kernel.allowed);
   kernel.middle = 0.5 * (1.0 + 1.0 / kernel.longest);
   kernel.half = 0.5 * (1.0 - 1.0 / kernel.longest);
+  const QuadratureRule rule = gauss_legendre(kSkeletalNodes, 0.0, 1.0);
   constexpr int kSamples = 2 * kSkeletalTerms;
+  std::vector<double> real(kSamples), imag(kSamples);
   for (int j = 0; j < kSamples; ++j) {
-    const double angle = std::numbers::pi * (j + 0.5) / kSamples;
-    const auto value =
-        tail(1.0 / (kernel.middle + kernel.half * std::cos(angle)), kernel.longest, sigma);
-    for (int k = 0; k < kSkeletalTerms; ++k) {
-      const double share = (k == 0 ? 1.0 : 2.0) / kSamples * std::cos(k * angle);
-      kernel.tail_real[k] += share * value.real();
-      kernel.tail_imag[k] += share * value.imag();
-    }
+    const double t = 1.0 / (kernel.middle + kernel.half * chebyshev_zero(j, kSamples));
+    const std::complex<double> value = tail(t, kernel.longest, sigma, rule);
+    real[j] = value.real();
+    imag[j] = value.imag();
   }
-  std::copy(kNodes.begin(), kNodes.end(), kernel.nodes);
-  std::copy(kWeights.begin(), kWeights.end(), kernel.weights);
+  real = chebyshev_series(real, kSkeletalTerms);
+  imag = chebyshev_series(imag, kSkeletalTerms);
+  real[0] *= 0.5;
+  imag[0] *= 0.5;
+  std::copy(real.begin(), real.end(), kernel.tail_real);
+  std::copy(imag.begin(), imag.end(), kernel.tail_imag);
+  std::copy(rule.nodes.begin(), rule.nodes.end(), kernel.nodes);
+  std::copy(rule.weights.begin(), rule.weights.end(), kernel.weights);
   return kernel;
 }
 

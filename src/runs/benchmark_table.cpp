@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading, writing and counting a benchmark's tables.
 #include <algorithm>
+#include <boost/math/statistics/univariate_statistics.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -175,11 +176,7 @@ std::vector<SuccessCount> count_successes(const std::vector<ResultRow>& rows) {
           if (first && *first <= kSuccessRanks[k]) ++count.successes[k];
       }
       if (count.pairs == 0) continue;
-      if (!seconds.empty()) {
-        std::sort(seconds.begin(), seconds.end());
-        const std::size_t n = seconds.size();
-        count.median_seconds = 0.5 * (seconds[(n - 1) / 2] + seconds[n / 2]);
-      }
+      if (!seconds.empty()) count.median_seconds = boost::math::statistics::median(seconds);
       counts.push_back(count);
     }
   }

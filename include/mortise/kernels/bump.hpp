@@ -21,7 +21,7 @@ namespace mortise {
 /// 1e-12 of the kernel's volume phi^(0; r).
 class RadialKernel {
  public:
-  /// @throws InputError unless alpha > 0.  Time about 0.1 s for finite alpha.
+  /// @throws InputError unless alpha > 0.  Time about 15 ms for finite alpha.
   explicit RadialKernel(double alpha = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] double alpha() const noexcept { return alpha_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Legendre nodes by Boost.Math: its fixed rules know their number of nodes at compile time,
 // so they are made from the zeros of the polynomials here.
-#include "kernels/quadrature.hpp"
+#include "core/quadrature.hpp"
 
 #include <boost/math/special_functions/legendre.hpp>
 #include <vector>
