@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -84,29 +83,6 @@ std::vector<Eigen::Index> RotationIndex::within(const Eigen::Quaterniond& centre
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
-}
-
-Eigen::Index RotationIndex::nearest(const Eigen::Quaterniond& centre) const {
-  const Eigen::Vector4d q = unit_coordinates(centre, "RotationIndex::nearest");
-  double best_sq = std::numeric_limits<double>::infinity();
-  Eigen::Index best = -1;
-  const auto visit = [&](const auto& self, const Eigen::Vector4d& x, Eigen::Index begin,
-                         Eigen::Index end) -> void {
-    if (begin >= end) return;
-    const Eigen::Index middle = begin + (end - begin) / 2;
-    const double d_sq = (points_.col(middle) - x).squaredNorm();
-    if (d_sq < best_sq || (d_sq == best_sq && member_[middle] < best)) {
-      best_sq = d_sq;
-      best = member_[middle];
-    }
-    const double offset = x(axis_[middle]) - points_(axis_[middle], middle);
-    const bool below = offset < 0.0;
-    self(self, x, below ? begin : middle + 1, below ? middle : end);
-    if (offset * offset <= best_sq) self(self, x, below ? middle + 1 : begin, below ? end : middle);
-  };
-  visit(visit, q, 0, size());
-  visit(visit, -q, 0, size());
-  return best;
 }
 
 }  // namespace mortise

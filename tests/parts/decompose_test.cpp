@@ -14,20 +14,23 @@
 #include <vector>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/parts/analytic_solids.hpp"
 #include "mortise/parts/uncontained_balls.hpp"
+#include "reference/analytic_solids.hpp"
 
 namespace mortise {
 namespace {
 
 using Shape = std::shared_ptr<const Solid>;
 
-Shape slanted_capsule() { return make_capsule({-1.0, -0.4, 0.2}, {1.1, 0.7, 0.5}, 0.31); }
-Shape torus() { return make_torus({0.3, -0.2, 0.1}, 1.0, 0.33); }
-Shape box() { return make_box({-0.5, -0.31, -0.77}, {0.4, 0.52, 0.6}); }
+Shape slanted_capsule() {
+  return reference::make_capsule({-1.0, -0.4, 0.2}, {1.1, 0.7, 0.5}, 0.31);
+}
+Shape torus() { return reference::make_torus({0.3, -0.2, 0.1}, 1.0, 0.33); }
+Shape box() { return reference::make_box({-0.5, -0.31, -0.77}, {0.4, 0.52, 0.6}); }
 Shape dumbbell() {
-  return unite({make_ball({-1, 0, 0}, 0.6), make_ball({1, 0.1, 0}, 0.45),
-                make_capsule({-1, 0, 0}, {1, 0.1, 0}, 0.12)});
+  return reference::unite({reference::make_ball({-1, 0, 0}, 0.6),
+                           reference::make_ball({1, 0.1, 0}, 0.45),
+                           reference::make_capsule({-1, 0, 0}, {1, 0.1, 0}, 0.12)});
 }
 
 // Points of the box of the solid, n along the longest side, in general position.
@@ -88,7 +91,7 @@ std::vector<SolidCase> solid_cases() {
           {"torus", torus()},
           {"box", box()},
           {"dumbbell", dumbbell()},
-          {"ball", make_ball({0.1, 0.2, 0.3}, 1.0)}};
+          {"ball", reference::make_ball({0.1, 0.2, 0.3}, 1.0)}};
 }
 
 constexpr std::array kMethods = {DecomposeMethod::kSkeletal, DecomposeMethod::kInnerPacking,
@@ -243,7 +246,7 @@ TEST(Decompose, CoverNeedsFewestAndEachOfItsBalls) {
     EXPECT_LT(cover.knots.size(), decompose(*c.solid, options).knots.size());
   }
   // A ball is one ball.
-  EXPECT_EQ(decompose(*make_ball({1, 2, 3}, 0.7), {.grid = 31}).knots.size(), 1);
+  EXPECT_EQ(decompose(*reference::make_ball({1, 2, 3}, 0.7), {.grid = 31}).knots.size(), 1);
 }
 
 TEST(Decompose, PartsThinnerThanACellAreReachedToo) {
@@ -251,8 +254,9 @@ TEST(Decompose, PartsThinnerThanACellAreReachedToo) {
   for (const double shift : {0.0, 0.21, 0.5, 0.77}) {
     const double h = 2.0 / 20;
     const double z = 0.5 * h + shift * h;
-    const Shape solid = unite(
-        {make_box({-1, -1, -0.5}, {-0.4, 1, 0.6}), make_box({-0.5, -1, z}, {1, 1, z + 0.33 * h})});
+    const Shape solid =
+        reference::unite({reference::make_box({-1, -1, -0.5}, {-0.4, 1, 0.6}),
+                          reference::make_box({-0.5, -1, z}, {1, 1, z + 0.33 * h})});
     const Decomposition d = decompose(*solid, {.grid = 20, .threads = 1});
     EXPECT_LE(balls_beyond(*solid, d.knots.points), d.epsilon * (1 + 1e-5)) << shift;
     EXPECT_LE(solid_beyond(*solid, d.knots.points, 90), d.epsilon) << shift;
@@ -287,9 +291,10 @@ TEST(Decompose, MovesAndScalesWithTheSolidAndThreadsDoNotMatter) {
   EXPECT_EQ(one.knots.points, two.knots.points);
   EXPECT_EQ(one.inner, two.inner);
   // By powers of two, so that nothing rounds.
-  const Decomposition moved = decompose(
-      *make_box(Eigen::Vector3d(-0.5, -0.31, -0.77) * 4, Eigen::Vector3d(0.4, 0.52, 0.6) * 4),
-      {.grid = 20});
+  const Decomposition moved =
+      decompose(*reference::make_box(Eigen::Vector3d(-0.5, -0.31, -0.77) * 4,
+                                     Eigen::Vector3d(0.4, 0.52, 0.6) * 4),
+                {.grid = 20});
   EXPECT_EQ(moved.knots.points, one.knots.points * 4);
   EXPECT_EQ(moved.epsilon, one.epsilon * 4);
 }
@@ -300,7 +305,8 @@ TEST(Decompose, RefusesWhatItCannotDo) {
   EXPECT_THROW((void)decompose(*solid, {.protrusion = 1.5}), InputError);
   EXPECT_THROW((void)decompose(*solid, {.protrusion = std::nan("")}), InputError);
   EXPECT_THROW((void)decompose(*solid, {.expansion = -0.1}), InputError);
-  EXPECT_THROW((void)decompose(*make_torus({0, 0, 0}, 1.0, 1e-3), {.grid = 4}), InputError);
+  EXPECT_THROW((void)decompose(*reference::make_torus({0, 0, 0}, 1.0, 1e-3), {.grid = 4}),
+               InputError);
   DistanceGrid grid;
   grid.size = {2, 2, 2};
   EXPECT_THROW((void)decompose(grid), InputError);

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "mortise/core/errors.hpp"
-#include "mortise/parts/analytic_solids.hpp"
 #include "mortise/parts/ball_mesh.hpp"
 #include "mortise/parts/mesh_solid.hpp"
 #include "parts/shapes.hpp"
+#include "reference/analytic_solids.hpp"
 
 namespace mortise {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 Eigen::Matrix4Xd one_ball(double x, double radius) { return Eigen::Vector4d(x, 0.0, 0.0, radius); }
 
 TEST(Hausdorff, OfTwoBallsIsTheirCentresDistanceAndDifferenceOfRadii) {
-  const auto solid = make_ball({0, 0, 0}, 1.0);
+  const auto solid = reference::make_ball({0, 0, 0}, 1.0);
   const double spacing = 0.02;
   const Eigen::Matrix3Xd surface = surface_samples(*solid, spacing, 2);
   const HausdorffDistance same =
@@ -43,7 +43,7 @@ TEST(Hausdorff, OfSurfacesSeesAVoidThatThatOfSolidsHardlyDoes) {
   Eigen::Matrix4Xd balls(4, sphere.vertices.cols());
   balls.topRows<3>() = sphere.vertices;
   balls.row(3).setConstant(0.4);
-  const auto solid = make_ball({0, 0, 0}, 1.0);
+  const auto solid = reference::make_ball({0, 0, 0}, 1.0);
   const HausdorffDistance d =
       hausdorff_distance(balls, *solid, surface_samples(*solid, 0.05), {.spacing = 0.05});
   EXPECT_LE(d.balls_beyond_solid, 1e-9);
@@ -76,7 +76,7 @@ TEST(Hausdorff, OfBallsThatFillACavityIsFromItsMiddle) {
 }
 
 TEST(Hausdorff, SaysHowFarApartItsNodesAre) {
-  const auto solid = make_box({0, 0, 0}, {10.0, 0.011, 0.011});
+  const auto solid = reference::make_box({0, 0, 0}, {10.0, 0.011, 0.011});
   const HausdorffDistance d = hausdorff_distance(Eigen::Vector4d(5, 0, 0, 0.02), *solid,
                                                  Eigen::Vector3d(0, 0, 0), {.spacing = 0.005});
   EXPECT_EQ(d.spacing, 0.005);
@@ -103,7 +103,7 @@ TEST(Hausdorff, OfMeshesSamplesEveryTriangle) {
 }
 
 TEST(Hausdorff, SamplesOfASolidLieOnItsBoundary) {
-  const auto box = make_box({-1, -0.5, -0.25}, {1, 0.5, 0.25});
+  const auto box = reference::make_box({-1, -0.5, -0.25}, {1, 0.5, 0.25});
   const Eigen::Matrix3Xd samples = surface_samples(*box, 0.05);
   EXPECT_LE(box->signed_distance(samples, 1.0).cwiseAbs().maxCoeff(), 1e-3 * 0.05);
   const double area = 2.0 * (2.0 + 1.0 + 0.5);
@@ -111,7 +111,7 @@ TEST(Hausdorff, SamplesOfASolidLieOnItsBoundary) {
 }
 
 TEST(Hausdorff, RefusesWhatItCannotMeasure) {
-  const auto solid = make_ball({0, 0, 0}, 1.0);
+  const auto solid = reference::make_ball({0, 0, 0}, 1.0);
   const Eigen::Matrix3Xd surface = surface_samples(*solid, 0.2);
   EXPECT_THROW((void)hausdorff_distance(Eigen::Matrix4Xd(4, 0), *solid, surface), InputError);
   EXPECT_THROW((void)hausdorff_distance(one_ball(0, 1), *solid, Eigen::Matrix3Xd(3, 0)),

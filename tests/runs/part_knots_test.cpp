@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mortise/parts/analytic_solids.hpp"
+#include "reference/analytic_solids.hpp"
 
 namespace mortise {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 LocalFrame frame() { return {Eigen::Vector3d(1.0, -2.0, 5.0), 10.0}; }
 
 TEST(PartBalls, FillABoxOnceAndStayInIt) {
-  const auto box = make_box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2});
+  const auto box = reference::make_box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2});
   const double step = 0.02, epsilon = 0.5 * std::sqrt(3.0) * step;
   for (const double largest : {0.05, 0.1, 1.0}) {
     const Knots balls = part_balls("fixed", frame(), *box, {.step = step, .largest = largest});
@@ -38,7 +38,7 @@ TEST(PartBalls, FillABoxOnceAndStayInIt) {
 }
 
 TEST(PartBalls, SmallerOnesAreMore) {
-  const auto box = make_box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2});
+  const auto box = reference::make_box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2});
   EXPECT_GT(part_balls("fixed", frame(), *box, {.largest = 0.05}).size(),
             part_balls("fixed", frame(), *box, {.largest = 1.0}).size());
 }

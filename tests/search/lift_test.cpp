@@ -8,9 +8,9 @@
 #include "mortise/affinity/double_skin.hpp"
 #include "mortise/molecules/read_molecule.hpp"
 #include "mortise/molecules/to_knots.hpp"
-#include "mortise/parts/analytic_solids.hpp"
 #include "mortise/parts/decompose.hpp"
 #include "mortise/search/rotation_search.hpp"
+#include "reference/analytic_solids.hpp"
 #include "reference/score_series.hpp"
 #include "search/sample_bodies.hpp"
 
@@ -29,10 +29,11 @@ std::vector<Bodies> sample_pairs() {
   const std::string file = std::string(MORTISE_SOURCE_DIR) + "/molecules/1hpv_ligand.pdb";
   const Knots atoms = to_knots(read_molecule(parse_molecule_spec(file)).molecule, {.radius = 0.0});
   // A peg and a frame: balls from a quarter of the grid's cell to the peg's radius.
-  const auto plate = unite(
-      {make_box({-2, -2, -0.5}, {-0.8, 2, 0.5}), make_box({0.8, -2, -0.5}, {2, 2, 0.5}),
-       make_box({-0.8, 0.8, -0.5}, {0.8, 2, 0.5}), make_box({-0.8, -2, -0.5}, {0.8, -0.8, 0.5})});
-  const auto peg = make_capsule({0, 0, -1}, {0, 0, 1}, 0.8);
+  const auto plate = reference::unite({reference::make_box({-2, -2, -0.5}, {-0.8, 2, 0.5}),
+                                       reference::make_box({0.8, -2, -0.5}, {2, 2, 0.5}),
+                                       reference::make_box({-0.8, 0.8, -0.5}, {0.8, 2, 0.5}),
+                                       reference::make_box({-0.8, -2, -0.5}, {0.8, -0.8, 0.5})});
+  const auto peg = reference::make_capsule({0, 0, -1}, {0, 0, 1}, 0.8);
   const Knots holed = decompose(*plate, {.grid = 24, .weights = KnotWeights::kShare}).knots;
   const Knots round = decompose(*peg, {.grid = 16, .weights = KnotWeights::kShare}).knots;
   return {{"atoms", double_skin_channel(atoms, atoms), 3.0},

@@ -70,8 +70,6 @@ class GapFunction {
   /// Largest error of the interpolated spectrum found at places between its samples, relative to
   /// the integral of |rho_moving|.
   [[nodiscard]] double interpolation_error() const noexcept;
-  /// No error of an interpolated spectrum is larger than this times the integral of |rho_moving|.
-  [[nodiscard]] double interpolation_bound() const noexcept;
   /// The value differs from that with exact spectra by no more than this; for real densities.
   [[nodiscard]] double sum_error_bound() const noexcept;
 

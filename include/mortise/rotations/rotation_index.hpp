@@ -27,10 +27,6 @@ class RotationIndex {
   [[nodiscard]] std::vector<Eigen::Index> within(const Eigen::Quaterniond& centre,
                                                  double angle) const;
 
-  /// The member nearest to `centre`; of several as near, the lowest index.
-  /// @throws InputError unless `centre` is of unit length. Time O(log N).
-  [[nodiscard]] Eigen::Index nearest(const Eigen::Quaterniond& centre) const;
-
  private:
   void build(Eigen::Index begin, Eigen::Index end);
 

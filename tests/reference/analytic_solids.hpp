@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances of simple solids in closed form.
-#include "mortise/parts/analytic_solids.hpp"
+// Solids whose distance is a formula, and their unions.
+#pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
-#include "mortise/core/errors.hpp"
+#include "mortise/parts/solid.hpp"
 
-namespace mortise {
-namespace {
+namespace mortise::reference {
 
 // A solid by its box and its distance at one point.
 template <typename Distance>
@@ -39,10 +41,6 @@ std::shared_ptr<const Solid> solid(const Eigen::Vector3d& low, const Eigen::Vect
   return std::make_shared<Formula<Distance>>(Eigen::AlignedBox3d(low, high), std::move(distance));
 }
 
-void check(bool good, const char* message) {
-  if (!good) throw InputError(message);
-}
-
 class Union final : public Solid {
  public:
   explicit Union(std::vector<std::shared_ptr<const Solid>> solids) : solids_(std::move(solids)) {}
@@ -65,18 +63,14 @@ class Union final : public Solid {
   std::vector<std::shared_ptr<const Solid>> solids_;
 };
 
-}  // namespace
-
-std::shared_ptr<const Solid> make_ball(const Eigen::Vector3d& center, double radius) {
-  check(center.allFinite() && radius > 0.0 && std::isfinite(radius),
-        "make_ball: the centre must be finite and the radius > 0");
+inline std::shared_ptr<const Solid> make_ball(const Eigen::Vector3d& center, double radius) {
   return solid((center.array() - radius).matrix(), (center.array() + radius).matrix(),
                [=](const Eigen::Vector3d& p) { return (p - center).norm() - radius; });
 }
 
-std::shared_ptr<const Solid> make_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  check(low.allFinite() && high.allFinite() && (low.array() < high.array()).all(),
-        "make_box: the corners must be finite and low < high");
+/// The axis-parallel box between two corners, low < high.
+inline std::shared_ptr<const Solid> make_box(const Eigen::Vector3d& low,
+                                             const Eigen::Vector3d& high) {
   const Eigen::Vector3d center = 0.5 * (low + high), half = 0.5 * (high - low);
   return solid(low, high, [=](const Eigen::Vector3d& p) {
     const Eigen::Vector3d beyond = (p - center).cwiseAbs() - half;
@@ -84,10 +78,9 @@ std::shared_ptr<const Solid> make_box(const Eigen::Vector3d& low, const Eigen::V
   });
 }
 
-std::shared_ptr<const Solid> make_capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                          double radius) {
-  check(a.allFinite() && b.allFinite() && radius > 0.0 && std::isfinite(radius),
-        "make_capsule: the ends must be finite and the radius > 0");
+/// All points within `radius` of the segment from a to b.
+inline std::shared_ptr<const Solid> make_capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                                 double radius) {
   const Eigen::Vector3d axis = b - a;
   const double length_sq = axis.squaredNorm();
   return solid((a.cwiseMin(b).array() - radius).matrix(), (a.cwiseMax(b).array() + radius).matrix(),
@@ -98,9 +91,9 @@ std::shared_ptr<const Solid> make_capsule(const Eigen::Vector3d& a, const Eigen:
                });
 }
 
-std::shared_ptr<const Solid> make_torus(const Eigen::Vector3d& center, double radius, double tube) {
-  check(center.allFinite() && std::isfinite(radius) && tube > 0.0 && tube < radius,
-        "make_torus: the centre must be finite and 0 < tube < radius");
+/// All points within `tube` of the circle of `radius` about the z axis through the centre.
+inline std::shared_ptr<const Solid> make_torus(const Eigen::Vector3d& center, double radius,
+                                               double tube) {
   const Eigen::Vector3d half(radius + tube, radius + tube, tube);
   return solid(center - half, center + half, [=](const Eigen::Vector3d& p) {
     const Eigen::Vector3d d = p - center;
@@ -108,9 +101,10 @@ std::shared_ptr<const Solid> make_torus(const Eigen::Vector3d& center, double ra
   });
 }
 
-std::shared_ptr<const Solid> unite(std::vector<std::shared_ptr<const Solid>> solids) {
-  check(!solids.empty(), "unite: there must be a solid");
+/// The union of solids. Outside exact; inside where solids overlap the depth is that in the deepest
+/// of them, a lower bound.
+inline std::shared_ptr<const Solid> unite(std::vector<std::shared_ptr<const Solid>> solids) {
   return std::make_shared<Union>(std::move(solids));
 }
 
-}  // namespace mortise
+}  // namespace mortise::reference
