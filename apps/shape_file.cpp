@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -28,13 +29,13 @@ std::string ending(const std::string& path) {
   return end;
 }
 
-}  // namespace
-
 bool is_mesh_name(const std::string& path) {
   const std::string end = ending(path);
   return end == ".stl" || end == ".ply" || end == ".off" || end == ".obj";
 }
 
+// The name must end in .h5, .xyzr, .stl, .ply, .off or .obj, `balls` false: in one of the last
+// four.
 void check_shape_name(const std::string& path, bool balls) {
   const std::string end = ending(path);
   if (is_mesh_name(path) || (balls && (end == ".h5" || end == ".xyzr"))) return;
@@ -43,6 +44,7 @@ void check_shape_name(const std::string& path, bool balls) {
                             ".stl, .ply, .off or .obj (mesh)");
 }
 
+// The figures are kept in a knots file.
 void write_balls(const std::string& path, const Eigen::Matrix4Xd& balls, const std::string& source,
                  const nlohmann::ordered_json& options, const nlohmann::ordered_json& figures) {
   const Knots knots{balls, Eigen::VectorXcd::Ones(balls.cols())};
@@ -59,6 +61,8 @@ void write_balls(const std::string& path, const Eigen::Matrix4Xd& balls, const s
     if (value.is_number() && name != "seconds") file.figures.push_back({name, value.get<double>()});
   write_knots_file(path, file);
 }
+
+}  // namespace
 
 void write_mesh(const std::string& path, const TriangleMesh& mesh) {
   const std::string end = ending(path);
@@ -80,13 +84,21 @@ nlohmann::ordered_json mesh_figures(const TriangleMesh& mesh) {
   return {{"triangles", mesh.size()}, {"area", area}, {"volume", volume}};
 }
 
-void add_shape_options(CLI::App& command, ShapeOptions& options, const std::string& what) {
+void add_shape_options(CLI::App& command, ShapeOptions& options, const std::string& what,
+                       const std::string& offset) {
   command
       .add_option("-o,--output", options.output,
                   what +
                       ": balls as NAME.h5 or NAME.xyzr, or their boundary as NAME.stl, .ply, "
                       ".off or .obj")
       ->required();
+  command
+      .add_option("--grid", options.grid,
+                  "Parts: nodes along the longest side of their decomposition")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1024));
+  command.add_option("--offset", options.offset, "Grow (or shrink, if negative) " + offset)
+      ->capture_default_str();
   command
       .add_option("--slack", options.slack,
                   "Drop balls that lie in another one grown by this length, and grow all by it; "
@@ -100,6 +112,13 @@ void add_shape_options(CLI::App& command, ShapeOptions& options, const std::stri
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--force", options.force, "Replace the output file if it is there");
+}
+
+void check_shape_options(const ShapeOptions& options, bool balls,
+                         const std::vector<std::string>& inputs) {
+  check_shape_name(options.output, balls);
+  check_output_file(options.output, inputs, options.force, "--force replaces it");
+  if (!std::isfinite(options.offset)) throw InputError("--offset must be finite");
 }
 
 void finish_shape(Eigen::Matrix4Xd balls, double error, const std::string& source,

@@ -4,21 +4,13 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
+#include "ball_body.hpp"
 #include "commands.hpp"
 #include "mortise/parts/triangle_mesh.hpp"
 
 namespace mortise::app {
-
-/// Throws InputError unless the name ends in .h5, .xyzr, .stl, .ply, .off or .obj, `balls` false:
-/// in one of the last four.
-void check_shape_name(const std::string& path, bool balls);
-/// Whether a file of this name holds triangles.
-[[nodiscard]] bool is_mesh_name(const std::string& path);
-
-/// Balls as a knots file or as plain balls. @param figures  kept in a knots file
-void write_balls(const std::string& path, const Eigen::Matrix4Xd& balls, const std::string& source,
-                 const nlohmann::ordered_json& options, const nlohmann::ordered_json& figures);
 
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
@@ -29,13 +21,24 @@ void write_mesh(const std::string& path, const TriangleMesh& mesh);
 struct ShapeOptions {
   CommonOptions common;
   std::string output;
+  int grid = BallBodyOptions().grid;
+  double offset = 0.0;
   double slack = 0.0;
   double spacing = 0.0;
   bool force = false;
 };
 
-/// Adds -o, --slack, --spacing and --force. @param what  "the obstacle", ...
-void add_shape_options(CLI::App& command, ShapeOptions& options, const std::string& what);
+/// Adds -o, --grid, --offset, --slack, --spacing and --force.
+/// @param what    "The obstacle", ...
+/// @param offset  what an offset does to it
+void add_shape_options(CLI::App& command, ShapeOptions& options, const std::string& what,
+                       const std::string& offset);
+
+/// @param balls   whether the answer may be balls
+/// @param inputs  files that must not be replaced
+/// @throws FileError, InputError if the output's name or the offset will not do
+void check_shape_options(const ShapeOptions& options, bool balls,
+                         const std::vector<std::string>& inputs);
 
 /// Drops balls, writes the file and adds balls or triangles to the figures.
 /// @param error  of the balls given, to which the slack is added

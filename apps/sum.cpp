@@ -10,7 +10,6 @@
 #include "mortise/collision/configuration.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/store/body.hpp"
-#include "output_guard.hpp"
 #include "pose_csv.hpp"
 #include "shape_file.hpp"
 
@@ -24,8 +23,6 @@ struct SumFlags {
   std::string fixed, moving, poses;
   std::vector<double> rotation = {1.0, 0.0, 0.0, 0.0};
   int pose = 1;
-  int grid = BallBodyOptions().grid;
-  double offset = 0.0;
   bool plain = false, inside = false;
 };
 
@@ -67,7 +64,7 @@ Eigen::Matrix4Xd sum_of(const BallBody& fixed, const BallBody& moving,
                        second = configurations_of_body(b);
   const Configurations product =
       configuration_product(first, flags.plain ? second : inverse(second),
-                            {.offset = flags.offset, .threads = flags.shape.common.threads});
+                            {.offset = flags.shape.offset, .threads = flags.shape.common.threads});
   Eigen::Matrix4Xd sum = without_contained(product.translations[0]).cast<double>();
   sum.topRows<3>().colwise() +=
       fixed_middle + (flags.plain ? 1.0 : -1.0) * (rotation * moving_middle);
@@ -77,7 +74,7 @@ Eigen::Matrix4Xd sum_of(const BallBody& fixed, const BallBody& moving,
 void write_places_inside(const BallBody& fixed, const BallBody& moving,
                          const Eigen::Quaterniond& rotation, const SumFlags& flags, Json& figures) {
   Eigen::Matrix4Xd balls = moving.balls;
-  balls.row(3) = (balls.row(3).array() + flags.offset).max(0.0);
+  balls.row(3) = (balls.row(3).array() + flags.shape.offset).max(0.0);
   const TriangleMesh mesh =
       quotient_mesh(*fixed.solid, balls, rotation,
                     {.spacing = flags.shape.spacing, .threads = flags.shape.common.threads});
@@ -95,21 +92,19 @@ void write_places_inside(const BallBody& fixed, const BallBody& moving,
 void run(const SumFlags& flags) {
   exit_at_once_on_interrupt("nothing was written");
   const ShapeOptions& shape = flags.shape;
-  check_shape_name(shape.output, !flags.inside);
-  check_output_file(shape.output, {body_path(flags.fixed), body_path(flags.moving), flags.poses},
-                    shape.force, "--force replaces it");
-  if (!std::isfinite(flags.offset)) throw InputError("sum: --offset must be finite");
+  check_shape_options(shape, !flags.inside,
+                      {body_path(flags.fixed), body_path(flags.moving), flags.poses});
   const Eigen::Quaterniond rotation = rotation_of(flags);
   const Clock::time_point start = Clock::now();
   BallBodyOptions body{
-      .grid = flags.grid, .quiet = shape.common.quiet, .threads = shape.common.threads};
+      .grid = shape.grid, .quiet = shape.common.quiet, .threads = shape.common.threads};
   const BallBody moving = read_ball_body(flags.moving, body);
   body.as_solid = flags.inside;
   body.as_balls = !flags.inside;
   const BallBody fixed = read_ball_body(flags.fixed, body);
   const Json resolved = {{"rotation", {rotation.w(), rotation.x(), rotation.y(), rotation.z()}},
-                         {"grid", flags.grid},
-                         {"offset", flags.offset},
+                         {"grid", shape.grid},
+                         {"offset", shape.offset},
                          {"slack", shape.slack},
                          {"spacing", shape.spacing},
                          {"plain", flags.plain},
@@ -143,7 +138,8 @@ void add_sum(CLI::App& program) {
       ->required();
   command.add_option("moving", flags->moving, "The body that is turned and shifted; any of these")
       ->required();
-  add_shape_options(command, flags->shape, "The obstacle");
+  add_shape_options(command, flags->shape, "The obstacle",
+                    "what meets by this length: a clearance");
   auto* rotation = command
                        .add_option("--rotation", flags->rotation,
                                    "Quaternion w,x,y,z that turns the moving body about its origin")
@@ -153,15 +149,6 @@ void add_sum(CLI::App& program) {
   command.add_option("--poses", flags->poses, "The rotation of a pose of this CSV (qw, ..., tz)")
       ->excludes(rotation);
   command.add_option("--pose", flags->pose, "Which pose of --poses, from 1")->capture_default_str();
-  command
-      .add_option("--grid", flags->grid,
-                  "Parts: nodes along the longest side of their decomposition")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1024));
-  command
-      .add_option("--offset", flags->offset,
-                  "Grow (or shrink, if negative) what meets by this length: a clearance")
-      ->capture_default_str();
   auto* plain = command.add_flag("--plain", flags->plain,
                                  "The Minkowski sum itself: all x + R y, the moving body not "
                                  "mirrored");

@@ -11,7 +11,6 @@
 #include "mortise/collision/configuration.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/store/body.hpp"
-#include "output_guard.hpp"
 #include "pose_csv.hpp"
 #include "shape_file.hpp"
 
@@ -23,8 +22,7 @@ using Json = nlohmann::ordered_json;
 struct SweepFlags {
   ShapeOptions shape;
   std::string body, path;
-  int grid = BallBodyOptions().grid;
-  double offset = 0.0, step = 0.0;
+  double step = 0.0;
   bool as_given = false;
 };
 
@@ -92,7 +90,7 @@ Eigen::Matrix4Xd sweep_of(const Eigen::Matrix4Xd& body, const Path& path, const 
   for (RigidMotion& motion : motions) motion.translation = motion * reach.centre - box.center();
   const Configurations product =
       configuration_product(configurations_of_motions(motions), configurations_of_body(balls),
-                            {.offset = flags.offset, .threads = flags.shape.common.threads});
+                            {.offset = flags.shape.offset, .threads = flags.shape.common.threads});
   Eigen::Matrix4Xd swept = without_contained(all_translations(product)).cast<double>();
   swept.topRows<3>().colwise() += box.center();
   return swept;
@@ -101,20 +99,17 @@ Eigen::Matrix4Xd sweep_of(const Eigen::Matrix4Xd& body, const Path& path, const 
 void run(const SweepFlags& flags) {
   exit_at_once_on_interrupt("nothing was written");
   const ShapeOptions& shape = flags.shape;
-  check_shape_name(shape.output, true);
-  check_output_file(shape.output, {body_path(flags.body), flags.path}, shape.force,
-                    "--force replaces it");
-  if (!std::isfinite(flags.offset)) throw InputError("sweep: --offset must be finite");
+  check_shape_options(shape, true, {body_path(flags.body), flags.path});
   const std::vector<RigidMotion> given = read_pose_csv(flags.path);
   if (given.empty()) throw FileError(flags.path, "holds no pose");
   const Clock::time_point start = Clock::now();
   const BallBody body = read_ball_body(
       flags.body,
-      {.grid = flags.grid, .quiet = shape.common.quiet, .threads = shape.common.threads});
+      {.grid = shape.grid, .quiet = shape.common.quiet, .threads = shape.common.threads});
   const Reach reach = reach_of(body.balls);
   const double step = flags.as_given ? 0.0 : flags.step > 0.0 ? flags.step : reach.diameter / 64.0;
   const Path path = refined(given, reach, step);
-  const Json resolved = {{"grid", flags.grid},   {"offset", flags.offset},
+  const Json resolved = {{"grid", shape.grid},   {"offset", shape.offset},
                          {"step", step},         {"as_given", flags.as_given},
                          {"slack", shape.slack}, {"spacing", shape.spacing}};
   Json figures = {{"body_balls", body.balls.cols()},
@@ -150,7 +145,9 @@ void add_sweep(CLI::App& program) {
                   "CSV with columns qw, qx, qy, qz, tx, ty, tz, one pose a line; others are "
                   "skipped")
       ->required();
-  add_shape_options(command, flags->shape, "The swept space");
+  add_shape_options(command, flags->shape, "The swept space",
+                    "what is swept by this length: a clearance; by the error that is printed, it "
+                    "surely holds the body on its way");
   command
       .add_option("--step", flags->step,
                   "Add poses between the path's until no ball moves farther than this length from "
@@ -158,16 +155,6 @@ void add_sweep(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--as-given", flags->as_given, "The path's poses alone, none between");
-  command
-      .add_option("--grid", flags->grid,
-                  "Parts: nodes along the longest side of their decomposition")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1024));
-  command
-      .add_option("--offset", flags->offset,
-                  "Grow (or shrink, if negative) what is swept by this length: a clearance; by the "
-                  "error that is printed, it surely holds the body on its way")
-      ->capture_default_str();
   add_common_options(
       command, flags->shape.common,
       "  mortise sweep drawer.stl --path opening.csv -o swept.stl\n"
