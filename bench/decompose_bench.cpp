@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "bench.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/decompose.hpp"
 #include "mortise/parts/distance_grid.hpp"
@@ -124,26 +125,21 @@ void run(const Options& options, const std::string& path) {
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  mortise::Options options;
-  try {
-    for (int i = 1; i < argc; ++i) {
-      const std::string word = argv[i];
-      if (word == "--measure")
+  return mortise::bench::bench_main("decompose_bench", argc, argv, [](const auto& words) {
+    mortise::Options options;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (words[i] == "--measure")
         options.measure = true;
-      else if (word == "--largest" && i + 1 < argc)
-        options.largest = std::clamp(std::stoi(argv[++i]), 16, 256);
-      else if (word == "--balls" && i + 1 < argc)
-        options.balls = argv[++i];
+      else if (words[i] == "--largest" && i + 1 < words.size())
+        options.largest = std::clamp(std::stoi(words[++i]), 16, 256);
+      else if (words[i] == "--balls" && i + 1 < words.size())
+        options.balls = words[++i];
       else
-        options.meshes.push_back(word);
+        options.meshes.push_back(words[i]);
     }
     std::printf(
         "mesh,grid,nodes,inside,method,mu,reduction,n1,n3,epsilon,balls_beyond,solid_beyond,"
         "surfaces,distance_seconds,seconds\n");
     for (const std::string& path : options.meshes) mortise::run(options, path);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "decompose_bench: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "bench.hpp"
 #include "collision/bodies.hpp"
 #include "mortise/collision/collider.hpp"
 #include "mortise/parts/mesh_solid.hpp"
@@ -24,8 +24,8 @@ namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-// Seconds of this process: everything timed runs on one thread, and the machine may be busy.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+// Everything timed runs on one thread.
+using mortise::bench::cpu_seconds;
 
 std::shared_ptr<Model> fcl_model(const mortise::TriangleMesh& mesh) {
   auto model = std::make_shared<Model>();

@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Describes the interfaces of known complexes, one CSV line each, and times one pose (one thread).
 //
-//   interface_bench PAIRS.csv > interfaces.csv      PAIRS.csv:
-//   name,...,reference_fixed,reference_moving
+//   interface_bench PAIRS.csv > interfaces.csv      PAIRS.csv: as `mortise benchmark` takes it
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
-#include <exception>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "bench.hpp"
+#include "mortise/core/errors.hpp"
 #include "mortise/metrics/interface.hpp"
 #include "mortise/molecules/read_molecule.hpp"
-#include "mortise/store/csv.hpp"
+#include "mortise/runs/benchmark.hpp"
 
 namespace mortise {
 namespace {
 
-// Processor time since the start, so that a busy machine changes little.
-double milliseconds() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double milliseconds() { return 1e3 * bench::cpu_seconds(); }
 
 void describe(const std::string& name, const std::string& fixed_path,
               const std::string& moving_path) {
@@ -44,36 +40,18 @@ void describe(const std::string& name, const std::string& fixed_path,
   std::fflush(stdout);
 }
 
-int run(const std::string& table) {
-  std::ifstream in(table);
-  std::string line;
-  if (!std::getline(in, line)) {
-    std::fprintf(stderr, "interface_bench: cannot read %s\n", table.c_str());
-    return 1;
-  }
+void run(const std::vector<std::string>& words) {
+  if (words.size() != 1) throw InputError("usage: interface_bench PAIRS.csv");
   std::printf(
       "name,sc,fixed_to_moving,moving_to_fixed,gap,sc_area,buried_area,residue_contacts,"
       "atom_contacts,hydrogen_bonds,clashes,atoms,build_ms,pose_ms\n");
-  const std::string folder = std::filesystem::path(table).parent_path().string() + "/";
-  while (std::getline(in, line)) {
-    const std::vector<std::string> row = csv_cells(line);
-    if (row.size() >= 6) describe(row[0], folder + row[4], folder + row[5]);
-  }
-  return 0;
+  for (const BenchmarkPair& pair : read_benchmark_pairs(words[0]))
+    describe(pair.name, pair.reference_fixed, pair.reference_moving);
 }
 
 }  // namespace
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: interface_bench PAIRS.csv\n");
-    return 1;
-  }
-  try {
-    return mortise::run(argv[1]);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "interface_bench: %s\n", error.what());
-    return 1;
-  }
+  return mortise::bench::bench_main("interface_bench", argc, argv, mortise::run);
 }

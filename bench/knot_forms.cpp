@@ -15,17 +15,15 @@
 //   MOST               pairs of more heavy atoms than this are left out
 //   FORM               name:radius:merge:penalty:penalty_radius, radius 0 = each atom's own
 #include <algorithm>
+#include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <numeric>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "bench.hpp"
 #include "mortise/affinity/double_skin.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/reference_complex.hpp"
@@ -35,12 +33,16 @@
 #include "mortise/molecules/to_knots.hpp"
 #include "mortise/poses/cluster.hpp"
 #include "mortise/rotations/rotation_set.hpp"
+#include "mortise/runs/benchmark.hpp"
 #include "mortise/scoring/contact_potential.hpp"
 #include "mortise/scoring/score_maps.hpp"
 #include "mortise/search/rotation_search.hpp"
 
 namespace mortise {
 namespace {
+
+using bench::cpu_seconds;
+using bench::split;
 
 constexpr int kRotations = 3600;
 constexpr std::size_t kRanked = 2000;
@@ -53,33 +55,12 @@ struct Form {
 };
 
 Form parse_form(const std::string& text) {
-  Form form;
-  char name[64];
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%63[^:]:%lf:%lf:%lf:%lf%c", name, &form.radius, &form.merge,
-                  &form.penalty, &form.penalty_radius, &rest) != 5)
+  const std::vector<std::string> fields = split(text, ':');
+  if (fields.size() != 5)
     throw InputError("expected name:radius:merge:penalty:penalty_radius, found " + text);
-  form.name = name;
-  return form;
+  return {fields[0], std::stod(fields[1]), std::stod(fields[2]), std::stod(fields[3]),
+          std::stod(fields[4])};
 }
-
-std::vector<std::vector<std::string>> read_table(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw FileError(path, "cannot be read");
-  std::vector<std::vector<std::string>> rows;
-  std::string line, field;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::istringstream stream(line);
-    rows.emplace_back();
-    while (std::getline(stream, field, ',')) rows.back().push_back(field);
-    if (rows.back().size() < 6)
-      throw FileError(path, static_cast<long>(rows.size()) + 1, "expected 6 fields");
-  }
-  return rows;
-}
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct FirstRanks {
   std::size_t acceptable = 0, hit = 0;  // 0 = none
@@ -90,19 +71,18 @@ struct Pair {
   Molecule fixed, moving;
   RigidMotion start;
   ReferenceComplex reference;
-  TypedPoints fixed_points, moving_points;
+  PlacedPoints moving_points;
   ContactPotential potential;
   ScoreMaps maps;
 };
 
-Pair read_pair(const std::vector<std::string>& row, const std::string& folder,
-               const std::string& potential_file, std::uint32_t seed) {
-  const auto read = [&](std::size_t column) {
-    return read_molecule(parse_molecule_spec(folder + row[column])).molecule;
+Pair read_pair(const BenchmarkPair& row, const std::string& potential_file, std::uint32_t seed) {
+  const auto read = [](const std::string& spec) {
+    return read_molecule(parse_molecule_spec(spec)).molecule;
   };
-  const Molecule fixed = read(2);
-  Molecule moving = read(3);
-  ReferenceComplex reference(fixed, moving, read(4), read(5));
+  const Molecule fixed = read(row.fixed);
+  Molecule moving = read(row.moving);
+  ReferenceComplex reference(fixed, moving, read(row.reference_fixed), read(row.reference_moving));
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal;
   RigidMotion start;
@@ -111,10 +91,10 @@ Pair read_pair(const std::vector<std::string>& row, const std::string& folder,
   for (Atom& atom : moving.atoms) atom.position = start * atom.position;
   const ContactPotential potential = read_contact_potential(potential_file, kContactTypes);
   const TypedPoints fixed_points{atom_positions(fixed), contact_types(fixed)};
-  const TypedPoints moving_points{atom_positions(moving), contact_types(moving)};
+  PlacedPoints moving_points({atom_positions(moving), contact_types(moving)});
   ScoreMaps maps(fixed_points, potential, {.threads = 1});
-  return {fixed,        moving,        start,     std::move(reference),
-          fixed_points, moving_points, potential, std::move(maps)};
+  return {fixed,     moving,         start, std::move(reference), std::move(moving_points),
+          potential, std::move(maps)};
 }
 
 FirstRanks first_ranks(const Pair& pair, const std::vector<RigidMotion>& poses,
@@ -139,14 +119,6 @@ FirstRanks first_ranks(const Pair& pair, const std::vector<RigidMotion>& poses,
   return first;
 }
 
-double spread_of(const std::vector<double>& values) {
-  const double n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double sum = 0.0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / n);
-}
-
 void run_pair(const Pair& pair, const std::string& name, const std::vector<Form>& forms,
               const RotationSet& rotations) {
   double first_spread = 0.0;
@@ -168,13 +140,13 @@ void run_pair(const Pair& pair, const std::string& name, const std::vector<Form>
       poses.push_back(search.moving_in_fixed(c));
       shape.push_back(c.score);
     }
-    const double spread = spread_of(shape);
+    const double spread = std::sqrt(boost::math::statistics::variance(shape));
     if (first_spread == 0.0) first_spread = spread;
     const double scale = first_spread / spread;
     std::vector<double> both(shape.size());
     for (std::size_t i = 0; i < shape.size(); ++i)
-      both[i] =
-          pair.potential.shape * scale * shape[i] + pair.maps.score(pair.moving_points, poses[i]);
+      both[i] = pair.potential.shape * scale * shape[i] +
+                pair.maps.contact_score(pair.moving_points, poses[i]);
     const FirstRanks by_shape = first_ranks(pair, poses, shape);
     const FirstRanks by_both = first_ranks(pair, poses, both);
     std::printf("%s,%s,%g,%ld,%.3f,%.4f,%zu,%zu,%zu,%zu\n", name.c_str(), form.name.c_str(),
@@ -184,11 +156,10 @@ void run_pair(const Pair& pair, const std::string& name, const std::vector<Form>
   }
 }
 
-int run(const std::vector<std::string>& arguments) {
+void run(const std::vector<std::string>& arguments) {
   if (arguments.size() < 6)
     throw InputError("expected PAIRS.csv POTENTIALS FIRST STEP MOST FORM...");
-  const std::vector<std::vector<std::string>> rows = read_table(arguments[0]);
-  const std::string folder = (std::filesystem::path(arguments[0]).parent_path() / "").string();
+  const std::vector<BenchmarkPair> rows = read_benchmark_pairs(arguments[0]);
   const std::size_t first = std::stoul(arguments[2]), step = std::stoul(arguments[3]);
   const std::size_t most = std::stoul(arguments[4]);
   std::vector<Form> forms;
@@ -198,22 +169,16 @@ int run(const std::vector<std::string>& arguments) {
       "pair,form,penalty,moving_knots,search_cpu,scale,shape_acceptable,shape_hit,both_acceptable,"
       "both_hit\n");
   for (std::size_t i = first; i < rows.size(); i += step) {
-    const Pair pair = read_pair(rows[i], folder, arguments[1] + std::to_string(i % kFolds) + ".txt",
+    const Pair pair = read_pair(rows[i], arguments[1] + std::to_string(i % kFolds) + ".txt",
                                 static_cast<std::uint32_t>(i));
     if (pair.fixed.atoms.size() + pair.moving.atoms.size() <= most)
-      run_pair(pair, rows[i][0], forms, rotations);
+      run_pair(pair, rows[i].name, forms, rotations);
   }
-  return 0;
 }
 
 }  // namespace
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  try {
-    return mortise::run({argv + 1, argv + argc});
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "knot_forms: %s\n", e.what());
-    return 1;
-  }
+  return mortise::bench::bench_main("knot_forms", argc, argv, mortise::run);
 }

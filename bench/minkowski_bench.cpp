@@ -15,6 +15,7 @@
 #include <random>
 #include <string>
 
+#include "bench.hpp"
 #include "mortise/collision/minkowski.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/fourier/aligned.hpp"
@@ -131,14 +132,14 @@ Eigen::Matrix4Xd random_knots(int n, unsigned seed) {
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  try {
-    if (argc < 2) throw mortise::InputError("usage: minkowski_bench GRID=a.h5,b.h5... | N1xN2...");
+  return mortise::bench::bench_main("minkowski_bench", argc, argv, [](const auto& items) {
+    if (items.empty())
+      throw mortise::InputError("usage: minkowski_bench GRID=a.h5,b.h5... | N1xN2...");
     std::printf(
         "grid,knots_a,knots_b,pairs,ms,mb,fill_ms,kept,reduce_ms,nodes_a,nodes_b,uniform_mb,"
         "uniform_ms,"
         "fft_ms,fft_mb\n");
-    for (int i = 1; i < argc; ++i) {
-      const std::string item = argv[i];
+    for (const std::string& item : items) {
       const auto sign = item.find('=');
       const auto comma = item.find(',');
       const auto times = item.find('x');
@@ -152,9 +153,5 @@ int main(int argc, char** argv) {
       else
         throw mortise::InputError("expected GRID=a.h5,b.h5 or N1xN2, found " + item);
     }
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "minkowski_bench: error: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -7,21 +7,16 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <random>
 
+#include "bench.hpp"
 #include "mortise/fourier/direct_ndft.hpp"
 #include "mortise/fourier/nfft.hpp"
 
 namespace mortise {
 namespace {
 
-// CPU time of this process: other work on the machine does not count.
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using bench::cpu_seconds;
 
 // Least time of one call over many, which is what a cache-warm loop pays.
 template <class Call>

@@ -9,12 +9,14 @@
 // Usage: part_forms PARTS_FOLDER SEED FIRST STEP FORM...
 //   FIRST, STEP  pairs FIRST, FIRST + STEP, ... of mates.json, from 0
 //   FORM         name:knots:ball_step:ball_mu:ball_largest:ball_penalty:ball_expansion
+#include <array>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "bench.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/metrics/placement.hpp"
 #include "mortise/metrics/true_mates.hpp"
@@ -22,6 +24,9 @@
 
 namespace mortise {
 namespace {
+
+using bench::cpu_seconds;
+using bench::split;
 
 constexpr int kPoses = 20;
 constexpr double kFound = 0.02;
@@ -31,26 +36,22 @@ struct Form {
   MateOptions options;
 };
 
-PartKnots form_named(const std::string& name) {
-  if (name == "nodes") return PartKnots::kNodes;
-  if (name == "balls") return PartKnots::kBalls;
-  throw InputError("expected nodes or balls, found " + name);
-}
-
+// The options of a form, by the names they have in a run file.
 Form parse_form(const std::string& text) {
-  char name[64], knots[16];
-  char rest = 0;
-  MateOptions o;
-  if (std::sscanf(text.c_str(), "%63[^:]:%15[^:]:%lf:%lf:%lf:%lf:%lf%c", name, knots, &o.ball_step,
-                  &o.ball_mu, &o.ball_largest, &o.ball_penalty, &o.ball_expansion, &rest) != 7)
+  constexpr std::array<const char*, 6> kNames = {"knots",        "ball_step",    "ball_mu",
+                                                 "ball_largest", "ball_penalty", "ball_expansion"};
+  const std::vector<std::string> fields = split(text, ':');
+  if (fields.size() != kNames.size() + 1)
     throw InputError("expected name:knots:step:mu:largest:penalty:expansion, found " + text);
-  o.knots = form_named(knots);
-  o.poses = kPoses;
-  o.threads = 1;
-  return {name, o};
+  MateOptions defaults;
+  defaults.poses = kPoses;
+  nlohmann::json options = nlohmann::json::parse(to_json(defaults));
+  options[kNames[0]] = fields[1];
+  for (std::size_t i = 1; i < kNames.size(); ++i) options[kNames[i]] = std::stod(fields[i + 1]);
+  Form form{fields[0], parse_mate_options(options.dump())};
+  form.options.threads = 1;
+  return form;
 }
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void run_pair(const std::string& folder, const TrueMate& truth, std::uint64_t seed,
               const std::vector<Form>& forms) {
@@ -81,7 +82,7 @@ void run_pair(const std::string& folder, const TrueMate& truth, std::uint64_t se
   }
 }
 
-int run(const std::vector<std::string>& arguments) {
+void run(const std::vector<std::string>& arguments) {
   if (arguments.size() < 5) throw InputError("expected PARTS_FOLDER SEED FIRST STEP FORM...");
   const std::vector<TrueMate> mates = read_true_mates(arguments[0] + "/mates.json");
   const std::uint64_t seed = std::stoull(arguments[1]);
@@ -90,17 +91,11 @@ int run(const std::vector<std::string>& arguments) {
   std::printf("pair,form,fixed_knots,moving_knots,set_up_cpu,search_cpu,rank_cpu,rank,error\n");
   for (std::size_t i = std::stoul(arguments[2]); i < mates.size(); i += std::stoul(arguments[3]))
     run_pair(arguments[0], mates[i], seed, forms);
-  return 0;
 }
 
 }  // namespace
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  try {
-    return mortise::run({argv + 1, argv + argc});
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "part_forms: %s\n", e.what());
-    return 1;
-  }
+  return mortise::bench::bench_main("part_forms", argc, argv, mortise::run);
 }

@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "../bench.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/fourier/aligned.hpp"
 #include "mortise/fourier/direct_ndft.hpp"
@@ -31,11 +31,7 @@ namespace {
 
 constexpr double kAlpha = 2.0;
 
-double cpu_seconds() {
-  timespec t = {};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using bench::cpu_seconds;
 
 template <class F>
 double least_seconds(const F& f) {
@@ -218,19 +214,14 @@ void compare(int n, const Knots& knots) {
 }  // namespace mortise
 
 int main(int argc, char** argv) {
-  try {
-    if (argc < 2) throw mortise::InputError("usage: spectrum_data GRID=knots.h5...");
+  return mortise::bench::bench_main("spectrum_data", argc, argv, [](const auto& items) {
+    if (items.empty()) throw mortise::InputError("usage: spectrum_data GRID=knots.h5...");
     std::printf("grid,knots,modes,raster,fft,ndft4d,nfft4d,compressed\n");
-    for (int i = 1; i < argc; ++i) {
-      const std::string item = argv[i];
+    for (const std::string& item : items) {
       const auto sign = item.find('=');
       if (sign == std::string::npos) throw mortise::InputError("expected GRID=FILE, found " + item);
       mortise::compare(std::stoi(item.substr(0, sign)),
                        mortise::read_knots_file(item.substr(sign + 1)).knots);
     }
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "spectrum_data: error: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  });
 }
