@@ -189,8 +189,8 @@ ContactReport measure_contact(const TriangleMesh& fixed_mesh, const Solid& fixed
                      " and " + std::to_string(options.samples));
   const double unit = std::min(diameter_of(fixed_mesh.vertices), diameter_of(moving_mesh.vertices));
   const double tolerance = options.tolerance * unit;
-  const double fixed_area = sample_surface(fixed_mesh, 1).area;
-  const double moving_area = sample_surface(moving_mesh, 1).area;
+  const double fixed_area = surface_area(fixed_mesh);
+  const double moving_area = surface_area(moving_mesh);
   const double density = options.samples / std::min(fixed_area, moving_area);
   ContactReport report;
   std::vector<Eigen::Vector3d> normals;

@@ -10,9 +10,12 @@
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
+namespace {
 
-SurfaceSamples sample_surface(const TriangleMesh& mesh, Eigen::Index count) {
-  std::vector<double> up_to;  // area of the triangles up to and with each one
+// Of the triangles up to and with each one.
+std::vector<double> summed_areas(const TriangleMesh& mesh) {
+  std::vector<double> up_to;
+  up_to.reserve(static_cast<std::size_t>(mesh.size()));
   double area = 0.0;
   for (Eigen::Index t = 0; t < mesh.size(); ++t) {
     const Eigen::Vector3d a = mesh.vertices.col(mesh.triangles(0, t));
@@ -21,6 +24,19 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, Eigen::Index count) {
     area += 0.5 * (b - a).cross(c - a).norm();
     up_to.push_back(area);
   }
+  return up_to;
+}
+
+}  // namespace
+
+double surface_area(const TriangleMesh& mesh) {
+  const std::vector<double> up_to = summed_areas(mesh);
+  return up_to.empty() ? 0.0 : up_to.back();
+}
+
+SurfaceSamples sample_surface(const TriangleMesh& mesh, Eigen::Index count) {
+  const std::vector<double> up_to = summed_areas(mesh);
+  const double area = up_to.empty() ? 0.0 : up_to.back();
   if (!(area > 0.0))
     throw InputError("sample_surface: expected a mesh with a surface, found area 0");
   SurfaceSamples samples;

@@ -38,17 +38,6 @@ TriangleMesh compact(const Eigen::Matrix3Xd& vertices, const std::vector<unsigne
   return mesh;
 }
 
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (Eigen::Index t = 0; t < mesh.size(); ++t) {
-    const Eigen::Vector3d a = mesh.vertices.col(mesh.triangles(0, t));
-    const Eigen::Vector3d b = mesh.vertices.col(mesh.triangles(1, t));
-    const Eigen::Vector3d c = mesh.vertices.col(mesh.triangles(2, t));
-    sum += 0.5 * (b - a).cross(c - a).norm();
-  }
-  return sum;
-}
-
 // One round: every edge longer than `most` gets a vertex at its middle, and each triangle is cut
 // along those of its edges. False if there was none.
 bool cut_once(std::vector<Eigen::Vector3d>& vertices, std::vector<Eigen::Vector3i>& triangles,
@@ -124,7 +113,7 @@ TriangleMesh cut_up(const TriangleMesh& mesh, Eigen::Index most) {
   const double diagonal =
       (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm();
   // Halved edges are 3/4 of the longest in the mean: about 3 triangles in a square of that side.
-  const double even = std::sqrt(3.0 * area_of(mesh) / static_cast<double>(most));
+  const double even = std::sqrt(3.0 * surface_area(mesh) / static_cast<double>(most));
   const double longest = std::max(diagonal / 40.0, even);
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;

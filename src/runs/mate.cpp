@@ -162,9 +162,8 @@ Parts make_parts(Part fixed, Part moving, const MateOptions& options) {
   const LocalFrame moving_frame{parts.moving.solid->bounds().center(), parts.length};
   parts.local_fixed = local_part(parts.fixed, fixed_frame);
   parts.local_moving = local_part(parts.moving, moving_frame);
-  constexpr Eigen::Index kProbe = 2000;
-  const double fixed_area = sample_surface(parts.local_fixed.mesh, kProbe).area;
-  const double moving_area = sample_surface(parts.local_moving.mesh, kProbe).area;
+  const double fixed_area = surface_area(parts.local_fixed.mesh);
+  const double moving_area = surface_area(parts.local_moving.mesh);
   // One density of samples for both surfaces, within reason.
   const auto samples = [&](const Part& part, double area) {
     const double ratio = std::min(20.0, area / std::min(fixed_area, moving_area));

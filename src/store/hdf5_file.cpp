@@ -247,13 +247,19 @@ Handle Reader::open(const std::string& name) const {
   return object;
 }
 
-std::string Reader::text(const std::string& object, const std::string& name) const {
+Handle Reader::open_attribute(const std::string& object, const std::string& name) const {
   const std::string where = "attribute " + name + " of " + object;
   if (!has_attribute(object, name)) fail(where + " is missing");
-  const Handle attribute(
+  Handle attribute(
       H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose);
   if (!attribute) fail(where + " is damaged");
+  return attribute;
+}
+
+std::string Reader::text(const std::string& object, const std::string& name) const {
+  const std::string where = "attribute " + name + " of " + object;
+  const Handle attribute = open_attribute(object, name);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
   if (!type || !space || H5Tget_class(type.get()) != H5T_STRING ||
@@ -268,11 +274,7 @@ std::string Reader::text(const std::string& object, const std::string& name) con
 void Reader::number(const std::string& object, const std::string& name, hid_t type,
                     void* value) const {
   const std::string where = "attribute " + name + " of " + object;
-  if (!has_attribute(object, name)) fail(where + " is missing");
-  const Handle attribute(
-      H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose);
-  if (!attribute) fail(where + " is damaged");
+  const Handle attribute = open_attribute(object, name);
   const Handle stored(H5Aget_type(attribute.get()), H5Tclose);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose);
   if (!stored || !space || H5Tget_class(stored.get()) != H5Tget_class(type) ||

@@ -108,6 +108,7 @@ class Reader {
 
  private:
   [[nodiscard]] Handle open(const std::string& name) const;
+  [[nodiscard]] Handle open_attribute(const std::string& object, const std::string& name) const;
   [[nodiscard]] Handle open_array(const std::string& name) const;
   void number(const std::string& object, const std::string& name, hid_t type, void* value) const;
   template <typename T>

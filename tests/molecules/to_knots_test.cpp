@@ -42,6 +42,18 @@ Molecule lone_atoms() {
   return m;
 }
 
+// Twelve atoms around the origin, at the corners of an icosahedron.
+void add_shell(Molecule& molecule, const std::string& name, int residue) {
+  const double g = 0.5 * (1.0 + std::sqrt(5.0));
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-g, g})
+      for (int turn = 0; turn < 3; ++turn) {
+        Eigen::Vector3d p(0.0, a, b);
+        std::rotate(p.data(), p.data() + turn, p.data() + 3);
+        molecule.atoms.push_back(make_atom(name, "PHE", "A", residue, 1.5 * p));
+      }
+}
+
 TEST(ToKnots, WeightsByHand) {
   Molecule m = lone_atoms();
   m.atoms[8].element = "O";
@@ -93,14 +105,7 @@ TEST(ToKnots, BuriedSideChainsWeighOne) {
   // A side-chain atom in a shell of twelve others, so close that no probe gets in.
   Molecule m;
   m.atoms.push_back(make_atom("CB", "PHE", "A", 1, {0, 0, 0}));
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  for (const double a : {-1.0, 1.0})
-    for (const double b : {-g, g})
-      for (int turn = 0; turn < 3; ++turn) {
-        Eigen::Vector3d p(0.0, a, b);
-        std::rotate(p.data(), p.data() + turn, p.data() + 3);
-        m.atoms.push_back(make_atom("CG", "PHE", "A", 2, 1.5 * p));
-      }
+  add_shell(m, "CG", 2);
   const Knots knots = to_knots(m, {.propensity = 1.0});
   EXPECT_EQ(knots.weights[0].real(), 1.0);
   for (Eigen::Index i = 1; i < 13; ++i) EXPECT_DOUBLE_EQ(knots.weights[i].real(), 1.82);
@@ -114,14 +119,7 @@ TEST(ToKnots, HydrogensShieldNothing) {
   Molecule bare, full;
   bare.atoms.push_back(make_atom("CB", "PHE", "A", 1, {0, 0, 0}));
   full = bare;
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  for (const double a : {-1.0, 1.0})
-    for (const double b : {-g, g})
-      for (int turn = 0; turn < 3; ++turn) {
-        Eigen::Vector3d p(0.0, a, b);
-        std::rotate(p.data(), p.data() + turn, p.data() + 3);
-        full.atoms.push_back(make_atom("HB", "PHE", "A", 1, 1.5 * p));
-      }
+  add_shell(full, "HB", 1);
   EXPECT_EQ(to_knots(full).weights, to_knots(bare).weights);
 }
 

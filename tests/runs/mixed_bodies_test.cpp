@@ -7,6 +7,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "mortise/molecules/radii.hpp"
+#include "mortise/parts/sample_surface.hpp"
 #include "mortise/runs/body_forms.hpp"
 #include "mortise/runs/run_kind.hpp"
 
@@ -71,13 +72,7 @@ TEST(MixedBodies, BallsAreAPartWithTheSurfaceOfTheirUnion) {
   Knots two{Eigen::Matrix4Xd(4, 2), Eigen::VectorXcd::Ones(2)};
   two.points << 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0;
   const Part part = body_part(two);
-  double area = 0.0;
-  for (Eigen::Index t = 0; t < part.mesh.size(); ++t) {
-    const auto corner = [&](int c) -> Eigen::Vector3d {
-      return part.mesh.vertices.col(part.mesh.triangles(c, t));
-    };
-    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-  }
+  const double area = surface_area(part.mesh);
   // Two unit spheres at distance 1, less the caps of height 1/2 that each has in the other.
   EXPECT_NEAR(area, 2.0 * (4.0 - 2.0 * 0.5) * M_PI, 0.05 * 6.0 * M_PI);
   EXPECT_NEAR(part.solid->signed_distance(Eigen::Vector3d(-2.0, 0.0, 0.0), 1e9)[0], 1.0, 1e-12);

@@ -19,6 +19,9 @@ struct SurfaceSamples {
   [[nodiscard]] Eigen::Index size() const noexcept { return points.cols(); }
 };
 
+/// The area of all triangles.
+[[nodiscard]] double surface_area(const TriangleMesh& mesh);
+
 /// Quasi-random points: along the triangles' summed areas by the golden ratio, within a triangle by
 /// the plastic number's sequence, so that prefixes are even. Deterministic.
 /// @throws InputError if the mesh has no area
