@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise benchmark on small tables: rows, success counts, restart, failures.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // mortise collide and mortise assemble on small parts and a molecule.
 #include <Eigen/Geometry>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 
 #include "apps/program.hpp"

@@ -2,6 +2,10 @@
 // mortise decompose as a user runs it.
 #include "mortise/parts/decompose.hpp"
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
 #include "apps/program.hpp"
 #include "mortise/parts/format_part.hpp"
 #include "mortise/parts/read_part.hpp"

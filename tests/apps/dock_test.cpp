@@ -3,6 +3,8 @@
 #include "mortise/runs/dock.hpp"
 
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <numeric>
 #include <set>
 

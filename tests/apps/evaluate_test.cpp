@@ -2,6 +2,7 @@
 // mortise evaluate on poses whose worth is known beforehand.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "apps/program.hpp"
 #include "mortise/store/provenance.hpp"

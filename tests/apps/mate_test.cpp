@@ -2,6 +2,9 @@
 // mortise mate as a user runs it: output, evaluation, export, threads, going on, errors.
 #include "mortise/runs/mate.hpp"
 
+#include <csignal>
+#include <filesystem>
+
 #include "apps/program.hpp"
 #include "mortise/metrics/true_mates.hpp"
 #include "mortise/parts/read_part.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program on bodies of unlike kinds, from docking to the report, and runs ranked anew.
+#include <filesystem>
 #include <fstream>
 
 #include "apps/program.hpp"
