@@ -13,6 +13,7 @@ namespace mortise {
 namespace {
 
 using namespace testing_bodies;  // NOLINT: a test's own helpers
+using tests::random_turn;
 
 Molecule joined(Molecule a, const Molecule& b) {
   a.atoms.insert(a.atoms.end(), b.atoms.begin(), b.atoms.end());

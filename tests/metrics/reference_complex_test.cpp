@@ -17,6 +17,7 @@ namespace mortise {
 namespace {
 
 using namespace testing_bodies;  // NOLINT: a test's own helpers
+using tests::random_turn;
 
 // Two triangles of CA atoms face to face, 4 apart along x; legs of 10, so that only equal corners
 // touch.
