@@ -199,7 +199,6 @@ const BoundingBall& GapFunction::fixed_ball() const noexcept { return state_->fi
 const BoundingBall& GapFunction::moving_ball() const noexcept { return state_->moving_ball; }
 double GapFunction::interpolation_error() const noexcept { return state_->interpolation_error; }
 
-
 double GapFunction::sum_error_bound() const noexcept {
   return state_->kernel.error_bound * state_->moving_mass * state_->head.back();
 }
