@@ -154,7 +154,20 @@ Json describe_structure(const MoleculeSpec& spec) {
 }
 
 Json describe_part(const std::string& path) {
-  const ReadPartResult part = read_part(path, {.repair = {.allow_open = true}});
+  std::string refusal;
+  const ReadPartResult part = [&] {
+    try {
+      return read_part(path);
+    } catch (
+        const FileError& error) {  // what others refuse is shown, if it can be, with the reason
+      refusal = error.what();
+      try {
+        return read_part(path, {.repair = {.allow_open = true}});
+      } catch (const FileError&) {
+        throw error;
+      }
+    }
+  }();
   const Eigen::Vector3d low = part.mesh.vertices.rowwise().minCoeff();
   const Eigen::Vector3d high = part.mesh.vertices.rowwise().maxCoeff();
   return {{"type", "part"},
@@ -166,6 +179,7 @@ Json describe_part(const std::string& path) {
           {"diameter", diameter_of(part.mesh.vertices)},
           {"low", {low[0], low[1], low[2]}},
           {"high", {high[0], high[1], high[2]}},
+          {"refused", refusal},
           {"decisions", part.decisions}};
 }
 
@@ -301,8 +315,9 @@ void print_part(const std::string& file, const Json& all) {
   line("unit", unit.empty() ? "not in the file" : unit);
   line("box", vector_text(all["low"], "%.6g") + " to " + vector_text(all["high"], "%.6g"));
   line("diameter", number(all["diameter"]));
-  if (all["closed"].get<bool>()) line("volume", number(all["volume"]));
+  if (all["volume"].get<double>() > 0.0) line("volume", number(all["volume"]));
   for (const Json& decision : all["decisions"]) line("note", decision);
+  if (const std::string why = all["refused"]; !why.empty()) line("refused", why);
 }
 
 void execute(const InfoFlags& options) {

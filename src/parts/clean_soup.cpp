@@ -34,6 +34,14 @@ void renumber(Triangles& triangles, const std::vector<int>& image) {
   }
 }
 
+/// The corners in an order that both ways round share, and whether the triangle goes the other way.
+std::pair<std::array<int, 3>, bool> canonical(std::array<int, 3> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  const bool turned = t[1] > t[2];
+  if (turned) std::swap(t[1], t[2]);
+  return {t, turned};
+}
+
 }  // namespace
 
 long merge_equal_points(Surface& surface) {
@@ -176,14 +184,51 @@ long flatten_needles(Surface& surface) {
   return count;
 }
 
+long drop_second_sides(Surface& surface) {
+  struct Use {
+    int first = -1;
+    std::array<int, 2> ways = {0, 0};
+  };
+  std::map<std::array<int, 3>, Use> uses;
+  DisjointSets pieces(surface.triangles.size());
+  const std::vector<Side> sides = sorted_sides(surface.triangles);
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first + 1; i < last; ++i)
+      pieces.join(sides[first].triangle, sides[i].triangle);
+  });
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto [key, turned] = canonical(surface.triangles[i]);
+    Use& use = uses[key];
+    if (use.first < 0) use.first = static_cast<int>(i);
+    ++use.ways[turned ? 1 : 0];
+  }
+  int count = 0;
+  const std::vector<int> piece = pieces.numbers(&count);
+  std::vector<std::array<long, 2>> tally(static_cast<std::size_t>(count), {0, 0});  // all, doubled
+  const auto doubled = [&](const std::array<int, 3>& t) {
+    const Use& use = uses.at(canonical(t).first);
+    return use.ways[0] > 0 && use.ways[1] > 0;
+  };
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    auto& [all, both] = tally[static_cast<std::size_t>(piece[i])];
+    ++all;
+    both += doubled(surface.triangles[i]);
+  }
+  Triangles kept;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto& [all, both] = tally[static_cast<std::size_t>(piece[i])];
+    const auto& t = surface.triangles[i];
+    if (2 * both > all && doubled(t) && uses.at(canonical(t).first).first != static_cast<int>(i))
+      continue;
+    kept.push_back(t);
+  }
+  const long dropped = static_cast<long>(surface.triangles.size() - kept.size());
+  surface.triangles = std::move(kept);
+  return dropped;
+}
+
 long drop_repeated(Surface& surface) {
   std::map<std::array<int, 3>, std::array<int, 2>> uses;
-  const auto canonical = [](std::array<int, 3> t) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    const bool turned = t[1] > t[2];
-    if (turned) std::swap(t[1], t[2]);
-    return std::pair(t, turned);
-  };
   for (const auto& t : surface.triangles) {
     const auto [key, turned] = canonical(t);
     ++uses[key][turned ? 1 : 0];

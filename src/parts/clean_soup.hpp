@@ -35,6 +35,10 @@ long flatten_needles(Surface& surface);
 /// Of triangles with the same three corners, keeps as many as one way exceeds the other, at most 1.
 long drop_repeated(Surface& surface);
 
+/// Of triangles that stand in the file both ways round, keeps the first, in pieces where most stand
+/// so: both sides of a face as two triangles. Returns how many are dropped.
+long drop_second_sides(Surface& surface);
+
 /// Drops points that no triangle uses.
 void drop_unused_points(Surface& surface);
 

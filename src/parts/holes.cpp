@@ -5,6 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -50,9 +51,20 @@ std::vector<std::vector<int>> rings_of(const std::vector<OpenEdge>& open) {
   return rings;
 }
 
+/// Whether the points of a ring lie within `distance` of a plane through their middle.
+bool lies_flat(const Surface& surface, const std::vector<int>& ring, double distance) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(ring.size()));
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = surface.points[static_cast<std::size_t>(ring[i])];
+  points.colwise() -= points.rowwise().mean().eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(points * points.transpose());
+  return (axes.eigenvectors().col(0).transpose() * points).cwiseAbs().maxCoeff() <= distance;
+}
+
 }  // namespace
 
-Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double largest) {
+Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double largest,
+                  double flat) {
   Filled filled;
   for (const auto& ring : rings_of(open)) {
     if (ring.size() < 3 || ring.size() > kMostEdges) continue;
@@ -64,7 +76,7 @@ Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double la
       polyline.emplace_back(p.x(), p.y(), p.z());
     }
     const double extent = box.diagonal().norm();
-    if (extent > largest) continue;
+    if (extent > largest && !(flat > 0.0 && lies_flat(surface, ring, flat))) continue;
     std::vector<CGAL::Triple<int, int, int>> patch;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(polyline, std::back_inserter(patch));
     // CGAL gives up on rings along a straight line; what a fan makes of them has no area and goes

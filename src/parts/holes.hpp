@@ -14,6 +14,9 @@ struct Filled {
 
 /// Fills rings of open edges with triangles between their own points.
 /// @param largest  extent (diagonal of its bounding box) of the largest hole that is filled
-Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double largest);
+/// @param flat     holes of any extent are filled too if their points lie this near to one plane,
+///                 length unit
+Filled fill_holes(Surface& surface, const std::vector<OpenEdge>& open, double largest,
+                  double flat = 0.0);
 
 }  // namespace mortise::parts

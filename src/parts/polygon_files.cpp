@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OBJ files by CGAL; polygons of any format cut into triangles.
+// Polygons of any format cut into triangles.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/OBJ.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
 #include <array>
-#include <boost/iostreams/device/array.hpp>
-#include <boost/iostreams/stream.hpp>
 #include <limits>
 
 #include "mortise/core/errors.hpp"
@@ -47,22 +44,6 @@ void cut_up(const std::vector<Eigen::Vector3d>& points, const Polygon& polygon,
 }
 
 }  // namespace
-
-PolygonSoup read_obj(const std::string& path, std::string_view bytes) {
-  namespace io = boost::iostreams;
-  Points points;
-  PolygonSoup soup;
-  bool good = false;
-  try {
-    io::stream<io::array_source> in(bytes.data(), bytes.size());
-    good = CGAL::IO::read_OBJ(in, points, soup.polygons);
-  } catch (const std::exception& e) {
-    throw FileError(path, std::string("expected an OBJ file, found it malformed: ") + e.what());
-  }
-  if (!good) throw FileError(path, "expected an OBJ file, found it malformed");
-  for (const auto& p : points) soup.points.emplace_back(p.x(), p.y(), p.z());
-  return soup;
-}
 
 TriangleMesh triangulate(const std::string& path, const PolygonSoup& soup,
                          std::vector<std::string>& notes) {

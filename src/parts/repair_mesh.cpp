@@ -8,6 +8,7 @@
 
 #include "mortise/core/errors.hpp"
 #include "parts/clean_soup.hpp"
+#include "parts/enclose.hpp"
 #include "parts/holes.hpp"
 #include "parts/orient.hpp"
 #include "parts/self_intersections.hpp"
@@ -70,8 +71,10 @@ class Repair {
   }
   void clean();
   void agree();
-  void close();
-  void refuse_open(const parts::Crossings& crossings) const;
+  void close(double tolerance, double largest, double flat);
+  [[nodiscard]] bool bridge();
+  void enclose();
+  [[noreturn]] void refuse_open(const parts::Crossings& crossings) const;
   [[nodiscard]] parts::Crossings crossings() const {
     constexpr long kMost = 10000;
     return parts::find_crossings(surface_, kMost);
@@ -81,6 +84,7 @@ class Repair {
   Surface surface_;
   RepairResult result_;
   std::vector<parts::OpenEdge> open_;
+  bool one_sided_ = false;
 };
 
 void Repair::clean() {
@@ -92,6 +96,8 @@ void Repair::clean() {
                      text_of(surface_.diagonal));
   const long collapsed = parts::drop_collapsed(surface_);
   say(collapsed, "dropped " + counted(collapsed, "triangle") + " with a repeated corner");
+  const long second = parts::drop_second_sides(surface_);
+  say(second, "dropped the second sides of faces: " + counted(second, "triangle"));
 }
 
 void Repair::agree() {
@@ -107,14 +113,14 @@ void Repair::agree() {
   const parts::Turned turned = parts::agree_with_neighbours(surface_, sides);
   say(turned.triangles,
       "turned " + counted(turned.triangles, "triangle") + " over to agree with the neighbours");
-  if (turned.one_sided > 0 && !options_.allow_open)
-    throw InputError("the surface has one side only, as at " +
-                     text_of(surface_.points[static_cast<std::size_t>(turned.first_corner)]));
+  one_sided_ = turned.one_sided > 0;
   say(turned.one_sided, "the surface has one side only along " + counted(turned.one_sided, "edge"));
   open_ = parts::open_edges(surface_.triangles, sides);
 }
 
-void Repair::close() {
+// Merges points of open edges nearer than `tolerance` and fills holes up to `largest` across, and
+// those within `flat` of a plane.
+void Repair::close(double tolerance, double largest, double flat) {
   // Points that two sides of a seam hold twice with rounding errors.
   std::vector<int> ends;
   for (const auto& edge : open_) {
@@ -123,7 +129,6 @@ void Repair::close() {
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  const double tolerance = options_.merge_tolerance * surface_.diagonal;
   const long near = parts::merge_near_points(surface_, ends, tolerance);
   say(near, "merged " + counted(near, "point") + " of open edges with points nearer than " +
                 text_of(tolerance));
@@ -132,52 +137,104 @@ void Repair::close() {
     agree();
   }
   if (open_.empty()) return;
-  const double largest = options_.largest_hole * surface_.diagonal;
-  const parts::Filled filled = parts::fill_holes(surface_, open_, largest);
+  const parts::Filled filled = parts::fill_holes(surface_, open_, largest, flat);
   say(filled.holes, "filled " + counted(filled.holes, "hole") + " with " +
                         counted(filled.triangles, "triangle") + ", the largest " +
                         text_of(filled.largest) + " across");
   if (filled.holes > 0) agree();
 }
 
+// Closes what encloses nothing since faces are missing: wide cracks are merged and flat openings of
+// any size filled.
+bool Repair::bridge() {
+  const Surface open = surface_;
+  const std::vector<std::string> decisions = result_.decisions;
+  for (const double tolerance : {1e-4, 1e-3}) {
+    surface_ = open;
+    result_.decisions = decisions;
+    agree();
+    close(tolerance * surface_.diagonal, options_.largest_hole * surface_.diagonal,
+          tolerance * surface_.diagonal);
+    parts::flatten_needles(surface_);
+    const auto sides = parts::sorted_sides(surface_.triangles);
+    open_ = parts::open_edges(surface_.triangles, sides);
+    result_.volume = parts::turn_outward(surface_, sides).volume;
+    result_.closed = open_.empty() && !one_sided_;
+    if (result_.closed && result_.volume > 1e-12 * std::pow(surface_.diagonal, 3)) return true;
+  }
+  surface_ = open;
+  agree();
+  result_.decisions = decisions;
+  result_.closed = false;
+  return false;
+}
+
+// The open surface becomes what it encloses, or is refused.
+void Repair::enclose() {
+  const Surface open = surface_;
+  const parts::Enclosed found = parts::enclose(surface_);
+  if (!(found.volume > 1e-12 * std::pow(surface_.diagonal, 3))) {
+    surface_ = open;
+    if (bridge()) return;
+    refuse_open(options_.find_self_intersections ? crossings() : parts::Crossings());
+  }
+  say(found.sheets,
+      "dropped " + counted(found.sheets, "triangle") + " of sheets without thickness");
+  say(found.walls, "dropped " + counted(found.walls, "triangle") + " inside the solid");
+  say(found.turned, "turned " + counted(found.turned, "triangle") + " outward");
+  result_.volume = found.volume;
+  open_ = parts::open_edges(surface_.triangles, parts::sorted_sides(surface_.triangles));
+  result_.closed = open_.empty();
+  if (found.wrapped) {
+    result_.decisions.push_back("wrapped the surface, which does not close, " +
+                                text_of(found.deviation) + " outside of its faces, gaps up to " +
+                                text_of(found.gap) + " filled");
+    result_.deviation = found.deviation;
+  }
+}
+
 void Repair::refuse_open(const parts::Crossings& found) const {
+  if (one_sided_) throw InputError("expected a solid, found a surface that has one side only");
   const auto& first = open_.front();
   const auto point = [&](int v) { return surface_.points[static_cast<std::size_t>(v)]; };
   std::string text = "expected a closed surface, found " +
                      counted(static_cast<long>(open_.size()), "open edge") + ", the first from " +
-                     text_of(point(first.from)) + " to " + text_of(point(first.to));
+                     text_of(point(first.from)) + " to " + text_of(point(first.to)) +
+                     ", and nothing that encloses a volume";
   if (found.pairs > 0)
     text += "; " + std::to_string(found.pairs) + (found.more ? " or more" : "") +
             " pairs of triangles cross, the first near " + text_of(found.first);
-  throw InputError(text);
+  throw InputError(text +
+                   ". Close it, give sheets a thickness, or take what the winding number says "
+                   "(--allow-open)");
 }
 
 RepairResult Repair::run() {
   clean();
   agree();
-  if (!open_.empty()) close();
+  if (!open_.empty())
+    close(options_.merge_tolerance * surface_.diagonal, options_.largest_hole * surface_.diagonal,
+          0.0);
   const long needles = parts::flatten_needles(surface_);
   say(needles, "removed " + counted(needles, "triangle") + " without area");
   if (surface_.triangles.empty())
     throw InputError("expected a surface, found triangles without area only");
   auto sides = parts::sorted_sides(surface_.triangles);
   open_ = parts::open_edges(surface_.triangles, sides);
-  if (!open_.empty() && !options_.allow_open)
-    refuse_open(options_.find_self_intersections ? crossings() : parts::Crossings());
-
   const parts::Outward outward = parts::turn_outward(surface_, sides);
   say(outward.turned, "turned " + counted(outward.turned, "shell") + " outward");
   say(outward.flat, "dropped " + counted(outward.flat, "shell") + " without volume");
-  result_.closed = open_.empty();
+  result_.closed = open_.empty() && !one_sided_;
   result_.volume = outward.volume;
   if (result_.closed && !(outward.volume > 1e-12 * std::pow(surface_.diagonal, 3)))
     throw InputError("expected a solid, found a surface that encloses no volume");
+  if (!result_.closed && !options_.allow_open) enclose();
+  if (outward.flat > 0 || !result_.closed) sides = parts::sorted_sides(surface_.triangles);
   say(static_cast<long>(open_.size()), "left " +
                                            counted(static_cast<long>(open_.size()), "open edge") +
                                            ": inside by winding number");
   if (result_.closed && outward.shells > 1)
     result_.decisions.push_back("the part has " + counted(outward.shells, "shell"));
-  if (outward.flat > 0) sides = parts::sorted_sides(surface_.triangles);
   long crowded = 0;
   parts::for_each_edge(sides,
                        [&](std::size_t first, std::size_t last) { crowded += last - first > 2; });

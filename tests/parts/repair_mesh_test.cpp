@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mortise/core/errors.hpp"
+#include "mortise/parts/mesh_solid.hpp"
 #include "parts/closed.hpp"
 #include "parts/shapes.hpp"
 
@@ -156,14 +157,123 @@ TEST(RepairMesh, MergesSeamsAndFillsSmallHoles) {
 
 TEST(RepairMesh, RefusesLargeHolesWithThePlaceOrAcceptsThem) {
   TriangleMesh open = shapes::cube(2.0);
-  open = shapes::without_last(open, 2);  // one side is missing
+  open = shapes::without_last(open, 6);  // three sides are missing: no flat opening
   EXPECT_THAT(error_of(open),
-              HasSubstr("expected a closed surface, found 4 open edges, the first from ("));
+              HasSubstr("expected a closed surface, found 8 open edges, the first from ("));
   RepairOptions allow;
   allow.allow_open = true;
   const RepairResult result = repair_mesh(open, allow);
   EXPECT_FALSE(result.closed);
-  EXPECT_THAT(result.decisions, ElementsAre("left 4 open edges: inside by winding number"));
+  EXPECT_THAT(result.decisions, ElementsAre("left 8 open edges: inside by winding number"));
+}
+
+TEST(RepairMesh, FillsFlatOpeningsOfAnySize) {
+  const RepairResult result = repair_mesh(shapes::without_last(shapes::cube(2.0), 2));
+  EXPECT_TRUE(result.closed);
+  EXPECT_NEAR(result.volume, 8.0, 1e-12);
+  EXPECT_THAT(result.decisions, ElementsAre(HasSubstr("filled 1 hole with 2 triangles")));
+}
+
+TEST(RepairMesh, TakesBothSidesOfAFaceForOne) {
+  // As SketchUp exports them; a second part beside it is not doubled and keeps its triangles.
+  TriangleMesh doubled = shapes::icosphere(1.0, 2);
+  const Eigen::Index count = doubled.size();
+  const double volume = shapes::volume(doubled);
+  doubled.triangles.conservativeResize(3, 2 * count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    doubled.triangles.col(count + i) = doubled.triangles.col(i).reverse();
+  const RepairResult result =
+      repair_mesh(shapes::join(scattered(doubled), moved(shapes::cube(1.0), {4.0, 0.0, 0.0})));
+  EXPECT_TRUE(result.closed);
+  EXPECT_EQ(result.mesh.size(), count + 12);
+  EXPECT_NEAR(result.volume, volume + 1.0, 1e-9);
+  EXPECT_THAT(result.decisions, testing::Contains("dropped the second sides of faces: " +
+                                                  std::to_string(count) + " triangles"));
+}
+
+/// A box whose six sides are grids of different fineness, so that no edges meet; every second side
+/// faces inward; each side is `share` of its size.
+TriangleMesh loose_sides(double side, double share) {
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const int n = 3 + 2 * face;
+    const int first = static_cast<int>(points.size());
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        Eigen::Vector3d p;
+        p[axis] = (face % 2 == 0 ? -0.5 : 0.5) * side;
+        p[(axis + 1) % 3] = share * side * (static_cast<double>(i) / n - 0.5);
+        p[(axis + 2) % 3] = share * side * (static_cast<double>(j) / n - 0.5);
+        points.push_back(p);
+      }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const int a = first + i * (n + 1) + j;
+        triangles.emplace_back(a, a + n + 1, a + n + 2);
+        triangles.emplace_back(a, a + n + 2, a + 1);
+      }
+  }
+  mesh.vertices.resize(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    mesh.vertices.col(static_cast<Eigen::Index>(i)) = points[i];
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    mesh.triangles.col(static_cast<Eigen::Index>(i)) = triangles[i];
+  return mesh;
+}
+
+TEST(RepairMesh, TakesWhatLooseSidesEncloseForTheSolid) {
+  // A wall inside, and a sheet in the open.
+  TriangleMesh wall = loose_sides(2.0, 0.9);
+  wall.triangles = wall.triangles.leftCols(2 * 3 * 3).eval();  // one side
+  const TriangleMesh soup =
+      shapes::join(shapes::join(loose_sides(2.0, 1.0), moved(wall, {1.3, 0.0, 0.0})),
+                   moved(wall, {3.0, 0.0, 0.0}));
+  for (const double share : {1.0, 0.99}) {
+    const RepairResult result =
+        repair_mesh(share == 1.0 ? soup : loose_sides(2.0, share), {.largest_hole = 0.01});
+    EXPECT_FALSE(result.closed);
+    EXPECT_EQ(result.deviation, 0.0);
+    EXPECT_NEAR(result.volume, 8.0, share == 1.0 ? 1e-9 : 0.2);
+    if (share == 1.0) {
+      EXPECT_THAT(result.decisions,
+                  testing::Contains("dropped 18 triangles of sheets without thickness"));
+      EXPECT_THAT(result.decisions, testing::Contains("dropped 18 triangles inside the solid"));
+    }
+    const MeshSolid solid(result.mesh);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1.5, 1.5);
+    Eigen::Matrix3Xd points(3, 400);
+    for (double& x : points.reshaped()) x = place(random);
+    const Eigen::VectorXd distance = solid.signed_distance(points, 10.0);
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      const double depth = 1.0 - points.col(i).cwiseAbs().maxCoeff();
+      if (std::abs(depth) < 0.05) continue;
+      EXPECT_EQ(distance[i]<0.0, depth> 0.0) << i;
+    }
+  }
+}
+
+TEST(RepairMesh, WrapsStripsThatEncloseABody) {
+  // A ball of separate triangles, each of them shrunk: no winding number tells its inside surely.
+  const TriangleMesh ball = shapes::icosphere(1.0, 24);
+  TriangleMesh soup = scattered(ball);
+  for (Eigen::Index i = 0; i < soup.size(); ++i) {
+    auto corners = soup.vertices.middleCols<3>(3 * i);
+    const Eigen::Vector3d middle = corners.rowwise().mean();
+    corners = (0.7 * (corners.colwise() - middle)).colwise() + middle;
+  }
+  const RepairResult result = repair_mesh(soup, {.merge_tolerance = 0.0, .largest_hole = 0.0});
+  EXPECT_TRUE(result.closed);
+  EXPECT_TRUE(is_closed(result.mesh));
+  EXPECT_GT(result.deviation, 0.0);
+  EXPECT_THAT(result.decisions, testing::Contains(HasSubstr("wrapped the surface")));
+  const Eigen::VectorXd radius = result.mesh.vertices.colwise().norm();
+  EXPECT_LE(radius.maxCoeff(), 1.0 + 1.1 * result.deviation);
+  EXPECT_GE(radius.minCoeff(), 0.97);
 }
 
 TEST(RepairMesh, ReportsCrossingTriangles) {
@@ -199,8 +309,7 @@ TEST(RepairMesh, RefusesWhatIsNoSolid) {
   EXPECT_THAT(error_of(mesh), HasSubstr("names vertex 8, expected 0 to 7"));
   mesh = shapes::cube(2.0);
   mesh.vertices.row(2).setZero();
-  EXPECT_THAT(error_of(mesh),
-              testing::AnyOf(HasSubstr("no volume"), HasSubstr("without area only")));
+  EXPECT_THAT(error_of(mesh), HasSubstr("nothing that encloses a volume"));
   mesh.vertices.setConstant(3.0);
   EXPECT_THAT(error_of(mesh), HasSubstr("in one point"));
   // A band with half a turn.
