@@ -20,7 +20,8 @@ constexpr double kNear =
     1e-3;  ///< how far off the surface the winding number is asked, part of the diagonal
 constexpr double kLook = 2.5;    ///< how far from a triangle a side is looked at, offsets
 constexpr double kAgreed = 0.8;  ///< share of a patch's area that decides for all of it
-constexpr double kSure = 0.9;    ///< share of the surface whose sides must be told by the winding
+constexpr double kCrack = 0.1;   ///< how far off a whole number cracks may carry the winding number
+constexpr double kSure = 0.95;   ///< share of the surface whose sides must be told by the winding
                                  ///< number
 constexpr int kSamples = 4000;
 
@@ -130,7 +131,7 @@ double sure_share(const Surface& surface, double look) {
     points.col(2 * i + 1) = sample.points.col(i) - look * sample.normals.col(i);
   }
   const Eigen::VectorXd winding = MeshSolid(mesh).winding_number(points);
-  const auto whole = [](double w) { return std::abs(w - std::round(w)) < 0.25; };
+  const auto whole = [](double w) { return std::abs(w - std::round(w)) < kCrack; };
   Eigen::Index sure = 0;
   for (Eigen::Index i = 0; i < count; ++i)
     sure += whole(winding[2 * i]) && whole(winding[2 * i + 1]) && winding[2 * i + 1] > 0.5;

@@ -22,7 +22,7 @@ struct Enclosed {
 /// turns them outward. Outside is where a ball can come from without touching a triangle, its
 /// radius 1/30 of the diagonal, then 1/80 where that leaves doubts. Closed shells stay.
 ///
-/// If the winding number still is not near a whole one at more than a tenth of the surface, the
+/// If the winding number still is not near a whole one at more than a twentieth of the surface, the
 /// surface becomes its wrap. Nothing is left if the triangles enclose nothing.
 /// @param surface  neighbours agree (agree_with_neighbours), closed shells face outward
 [[nodiscard]] Enclosed enclose(Surface& surface);

@@ -72,7 +72,7 @@ class Repair {
   void clean();
   void agree();
   void close(double tolerance, double largest, double flat);
-  [[nodiscard]] bool bridge();
+  [[nodiscard]] bool bridge(double tolerance);
   void enclose();
   [[noreturn]] void refuse_open(const parts::Crossings& crossings) const;
   [[nodiscard]] parts::Crossings crossings() const {
@@ -144,24 +144,20 @@ void Repair::close(double tolerance, double largest, double flat) {
   if (filled.holes > 0) agree();
 }
 
-// Closes what encloses nothing since faces are missing: wide cracks are merged and flat openings of
-// any size filled.
-bool Repair::bridge() {
+// Closes a surface that lacks faces: cracks up to `tolerance` of the diagonal are merged, flat
+// openings of any size filled. False, and all as before, if that does not close it.
+bool Repair::bridge(double tolerance) {
   const Surface open = surface_;
   const std::vector<std::string> decisions = result_.decisions;
-  for (const double tolerance : {1e-4, 1e-3}) {
-    surface_ = open;
-    result_.decisions = decisions;
-    agree();
-    close(tolerance * surface_.diagonal, options_.largest_hole * surface_.diagonal,
-          tolerance * surface_.diagonal);
-    parts::flatten_needles(surface_);
-    const auto sides = parts::sorted_sides(surface_.triangles);
-    open_ = parts::open_edges(surface_.triangles, sides);
-    result_.volume = parts::turn_outward(surface_, sides).volume;
-    result_.closed = open_.empty() && !one_sided_;
-    if (result_.closed && result_.volume > 1e-12 * std::pow(surface_.diagonal, 3)) return true;
-  }
+  agree();
+  close(tolerance * surface_.diagonal, options_.largest_hole * surface_.diagonal,
+        std::max(tolerance, 1e-4) * surface_.diagonal);
+  parts::flatten_needles(surface_);
+  const auto sides = parts::sorted_sides(surface_.triangles);
+  open_ = parts::open_edges(surface_.triangles, sides);
+  result_.volume = parts::turn_outward(surface_, sides).volume;
+  result_.closed = open_.empty() && !one_sided_;
+  if (result_.closed && result_.volume > 1e-12 * std::pow(surface_.diagonal, 3)) return true;
   surface_ = open;
   agree();
   result_.decisions = decisions;
@@ -171,11 +167,12 @@ bool Repair::bridge() {
 
 // The open surface becomes what it encloses, or is refused.
 void Repair::enclose() {
+  if (bridge(options_.merge_tolerance)) return;
   const Surface open = surface_;
   const parts::Enclosed found = parts::enclose(surface_);
   if (!(found.volume > 1e-12 * std::pow(surface_.diagonal, 3))) {
     surface_ = open;
-    if (bridge()) return;
+    if (bridge(1e-4) || bridge(1e-3)) return;
     refuse_open(options_.find_self_intersections ? crossings() : parts::Crossings());
   }
   say(found.sheets,
