@@ -244,8 +244,9 @@ void add_decompose(CLI::App& program) {
       ->check(CLI::Range(2, 64));
   command.add_option("--ply", options->ply, "PLY file of the balls, to look at");
   command.add_flag("--force", options->force, "Replace the output files if they are there");
-  command.add_flag("--allow-open", options->allow_open,
-                   "Accept a surface with holes; inside is where it winds around a point");
+  command.add_flag(
+      "--allow-open", options->allow_open,
+      "Take a surface that does not close as it is; inside is where it winds around a point");
   command.add_flag("!--no-hausdorff", options->measure,
                    "Do not measure the distance between balls and part");
   add_common_options(command, options->common,
