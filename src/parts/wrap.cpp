@@ -7,9 +7,13 @@
 #include <CGAL/alpha_wrap_3.h>
 
 namespace mortise::parts {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+}  // namespace
 
 TriangleMesh wrap(const Surface& surface, double alpha, double offset) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_3> points;
   points.reserve(surface.points.size());
   for (const Eigen::Vector3d& p : surface.points) points.emplace_back(p.x(), p.y(), p.z());
