@@ -63,16 +63,13 @@ const contrasts = (page) => page.evaluate(() => {
 
 export const checks = {
   async 'molecules open fast, sort, select, step'(open) {
-    // The quickest of three: other tests may be running.
-    const times = [];
-    for (let k = 0; k < 2; ++k) {
-      const first = await open('molecules');
-      times.push(first.opened);
-      await first.close();
+    // Three attempts: other tests may be running.
+    let report = await open('molecules');
+    for (let k = 0; k < 2 && report.opened >= OPEN_LIMIT; ++k) {
+      await report.close();
+      report = await open('molecules');
     }
-    const report = await open('molecules');
-    const { page } = report;
-    const opened = Math.min(report.opened, ...times);
+    const { page, opened } = report;
     assert.ok(opened < OPEN_LIMIT, `1,000 poses opened in ${opened} ms`);
     assert.equal(await page.locator('#count').textContent(), '1,000 poses');
     assert.ok(await page.locator('#table-scroll tr.row').count() < 80, 'only the visible rows are made');

@@ -16,8 +16,11 @@ const browser = await launch(work, (why) => {
 });
 mkdirSync(screenshots, { recursive: true });
 
-/** A report in a page of its own; everything it should not do is collected in `faults`. */
-async function open(name, { scheme = 'light', width = 1440, height = 900 } = {}) {
+/**
+ * A report in a page of its own; everything it should not do is collected in `faults`. The window is no larger than the
+ * layout for wide windows asks for: pixels are what drawing by software costs.
+ */
+async function open(name, { scheme = 'light', width = 1200, height = 600 } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, reducedMotion: 'reduce' });
   const page = await context.newPage();
   page.setDefaultTimeout(120_000);  // other tests may keep the machine busy
