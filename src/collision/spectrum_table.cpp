@@ -2,13 +2,13 @@
 // Kernel and filter of the interpolated spectrum; derivation in docs/math.md.
 #include "collision/spectrum_table.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 #include "collision/gap_isa.hpp"
+#include "core/solve_symmetric.hpp"
 
 namespace mortise {
 namespace {
@@ -34,9 +34,9 @@ std::vector<double> filter_taps(const SpreadKernel& kernel, double oversampling)
   // rounding errors.
   constexpr double kDamping = 1e-8;
   const Eigen::MatrixXd normal =
-      basis.transpose() * basis +
+      basis.transpose().lazyProduct(basis) +
       kDamping * kNodes * Eigen::MatrixXd::Identity(kTaps + 1, kTaps + 1);
-  const Eigen::VectorXd taps = normal.ldlt().solve(basis.transpose() * target);
+  const Eigen::VectorXd taps = detail::solve_symmetric(normal, basis.transpose() * target);
   return {taps.data(), taps.data() + taps.size()};
 }
 

@@ -12,8 +12,47 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mortise::detail {
+namespace {
+
+// scale basis T basis^T, with `diagonal` on and `beside` next to the diagonal of T; no entry is
+// larger than 1 by much, without which Eigen's iteration does not know where to stop.
+struct Tridiagonal {
+  double scale = 1.0;
+  Eigen::Vector4d diagonal;
+  Eigen::Vector3d beside;
+  Eigen::Matrix4d basis;
+};
+
+// By two reflections. Eigen's solver does that itself, by code for matrices of any size that takes
+// a compiler seven seconds.
+Tridiagonal tridiagonal(Eigen::Matrix4d a) {
+  Tridiagonal out;
+  const double largest = a.cwiseAbs().maxCoeff();
+  if (largest > 0.0) out.scale = largest;
+  a /= out.scale;
+  out.basis.setIdentity();
+  for (int k = 0; k < 2; ++k) {
+    // The mirror that turns what stands below the diagonal of column k to axis k + 1.
+    Eigen::Vector4d v = a.col(k);
+    v.head(k + 1).setZero();
+    const double length = v.norm();
+    v[k + 1] += std::copysign(length, v[k + 1]);
+    const double square = v.squaredNorm();
+    if (!(square > std::numeric_limits<double>::min())) continue;
+    const Eigen::Vector4d w = 2.0 / square * v;
+    a -= w * (v.transpose() * a);
+    a -= (a * v) * w.transpose();
+    out.basis -= (out.basis * v) * w.transpose();
+  }
+  out.diagonal = a.diagonal();
+  out.beside = a.diagonal<1>();
+  return out;
+}
+
+}  // namespace
 
 PairedMoments paired_moments(const Eigen::Matrix3Xd& model, const Eigen::Matrix3Xd& reference) {
   PairedMoments out;
@@ -23,7 +62,7 @@ PairedMoments paired_moments(const Eigen::Matrix3Xd& model, const Eigen::Matrix3
   out.reference_mean = reference.rowwise().mean();
   const Eigen::Matrix3Xd m = model.colwise() - out.model_mean;
   const Eigen::Matrix3Xd r = reference.colwise() - out.reference_mean;
-  out.cross = m * r.transpose();
+  out.cross = m.lazyProduct(r.transpose());
   out.model_spread = m.squaredNorm();
   out.reference_spread = r.squaredNorm();
   return out;
@@ -62,16 +101,19 @@ double rmsd_in_place(const PairedMoments& moments) {
 }
 
 double rmsd_superposed(const PairedMoments& moments) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(horn_matrix(moments.cross),
-                                                              Eigen::EigenvaluesOnly);
+  const Tridiagonal horn = tridiagonal(horn_matrix(moments.cross));
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver;
+  solver.computeFromTridiagonal(horn.diagonal, horn.beside, Eigen::EigenvaluesOnly);
   const double residual =
-      moments.model_spread + moments.reference_spread - 2.0 * solver.eigenvalues()(3);
+      moments.model_spread + moments.reference_spread - 2.0 * horn.scale * solver.eigenvalues()(3);
   return std::sqrt(std::max(0.0, residual / moments.count));
 }
 
 Eigen::Quaterniond best_rotation(const PairedMoments& moments) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(horn_matrix(moments.cross));
-  const Eigen::Vector4d q = solver.eigenvectors().col(3);
+  const Tridiagonal horn = tridiagonal(horn_matrix(moments.cross));
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver;
+  solver.computeFromTridiagonal(horn.diagonal, horn.beside, Eigen::ComputeEigenvectors);
+  const Eigen::Vector4d q = horn.basis * solver.eigenvectors().col(3);
   return {q(0), q(1), q(2), q(3)};
 }
 

@@ -13,7 +13,8 @@ RigidMotion principal_frame(const Eigen::Matrix3Xd& points) {
   if (points.cols() == 0) throw InputError("principal_frame: expected at least one point");
   const Eigen::Vector3d mean = points.rowwise().mean();
   const Eigen::Matrix3Xd centred = points.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centred * centred.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      centred.lazyProduct(centred.transpose()));
   Eigen::Matrix3d axes;
   for (int d = 0; d < 2; ++d) {
     Eigen::Vector3d axis = solver.eigenvectors().col(2 - d);

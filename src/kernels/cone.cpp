@@ -3,13 +3,13 @@
 // docs/math.md.
 #include "mortise/kernels/cone.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "core/quadrature.hpp"
+#include "kernels/thin_svd.hpp"
 #include "mortise/core/errors.hpp"
 
 namespace mortise {
@@ -101,21 +101,31 @@ ConeSeries fitted_cone(const RadialTransform& transform, double k_max, double r_
       throw InputError("fitted_cone: the tolerance is out of reach of double precision");
     const QuadratureRule rule = gauss_legendre(2 * modes + 8, r_max - width, r_max);
     const Eigen::VectorXd row_scale = rule.weights.cwiseSqrt();
-    Eigen::MatrixXcd basis(rule.nodes.size(), modes);
-    for (Eigen::Index j = 0; j < basis.rows(); ++j)
-      for (int m = 0; m < modes; ++m)
-        basis(j, m) =
+    // The basis A + i B as the real matrix [A -B; B A]: its singular values are those of A + i B,
+    // each twice.
+    const Eigen::Index nodes = rule.nodes.size();
+    Eigen::MatrixXd basis(2 * nodes, 2 * modes);
+    for (Eigen::Index j = 0; j < nodes; ++j)
+      for (int m = 0; m < modes; ++m) {
+        const std::complex<double> value =
             std::polar(row_scale[j], -2.0 * pi * (m - modes / 2) * rule.nodes[j] / series.period_);
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
+        basis(j, m) = basis(nodes + j, modes + m) = value.real();
+        basis(nodes + j, m) = value.imag();
+        basis(j, modes + m) = -value.imag();
+      }
+    const ThinSvd svd = thin_svd(basis);
     // Smaller singular values are rounding.
-    const double least = 1e-14 * svd.singularValues()[0];
+    const double least = 1e-14 * svd.sigma[0];
     const Eigen::VectorXd inverse =
-        svd.singularValues().unaryExpr([&](double s) { return s > least ? 1.0 / s : 0.0; });
+        svd.sigma.unaryExpr([&](double s) { return s > least ? 1.0 / s : 0.0; });
     series.radii_ = rule.nodes;
-    // In two factors: their product would carry rounding from the smallest singular values into all
-    // directions.
-    series.from_samples_ = svd.matrixU().adjoint() * row_scale.asDiagonal();
-    series.to_modes_ = svd.matrixV() * inverse.asDiagonal();
+    // Samples are real, so the upper half of U says what they hold, and the two halves of V are the
+    // modes' real and imaginary parts. In two factors: their product would carry rounding from the
+    // smallest singular values into all directions.
+    series.from_samples_ = svd.u.topRows(nodes).transpose() * row_scale.asDiagonal();
+    series.to_modes_.resize(modes, inverse.size());
+    series.to_modes_.real() = svd.v.topRows(modes) * inverse.asDiagonal();
+    series.to_modes_.imag() = svd.v.bottomRows(modes) * inverse.asDiagonal();
     double worst = 0.0;
     const int r_count = 4 * modes;
     for (int i = 0; i < k_count; ++i) {

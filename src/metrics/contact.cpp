@@ -2,12 +2,12 @@
 // Contact area, depth and the way out, by surface samples; penetration volume by an octree.
 #include "mortise/metrics/contact.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "core/solve_symmetric.hpp"
 #include "core/sphere_points.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/parts/diameter.hpp"
@@ -98,7 +98,7 @@ void find_pull(const Touching& touching, ContactReport& report) {
       slope += touching.areas[k] / total * along * m;
       curvature += touching.areas[k] / total * m * m.transpose();
     }
-    const Eigen::Vector3d next = (best - curvature.ldlt().solve(slope)).normalized();
+    const Eigen::Vector3d next = (best - detail::solve_symmetric(curvature, slope)).normalized();
     if (!next.allFinite() || !(cost(next) < cost(best))) break;
     best = next;
   }

@@ -2,13 +2,13 @@
 // Placement errors, minimised over the truth's symmetries.
 #include "mortise/metrics/placement.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include "core/solve_symmetric.hpp"
 #include "mortise/core/errors.hpp"
 #include "mortise/core/pose_distance.hpp"
 #include "mortise/parts/diameter.hpp"
@@ -162,7 +162,7 @@ struct Placement::Impl {
       double change = 0.0;
       for (int attempt = 0; attempt < 12 && !better; ++attempt) {
         const Eigen::MatrixXd damped = hessian + damping * size * Eigen::MatrixXd::Identity(n, n);
-        const Eigen::VectorXd move = -damped.fullPivLu().solve(gradient);
+        const Eigen::VectorXd move = -detail::solve_symmetric(damped, gradient);
         Parameters at = best.at + scale.cwiseProduct(move);
         clamp(at);
         const double there = value(at);

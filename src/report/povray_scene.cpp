@@ -110,7 +110,7 @@ Eigen::Matrix3d view_of_molecules(const Eigen::Matrix3Xd& fixed, const Eigen::Ma
   flat << fixed, moving;
   flat.colwise() -= Eigen::Vector3d(flat.rowwise().mean());
   flat -= right * (right.transpose() * flat);
-  const Eigen::Matrix3d spread = flat * flat.transpose();
+  const Eigen::Matrix3d spread = flat.lazyProduct(flat.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   Eigen::Vector3d up = axes.eigenvectors().col(2);
   up = (up - up.dot(right) * right).normalized();

@@ -11,6 +11,7 @@
 #include "mortise/affinity/double_skin.hpp"
 #include "mortise/affinity/sampled_field.hpp"
 #include "mortise/core/errors.hpp"
+#include "mortise/core/rotation_vector.hpp"
 #include "mortise/metrics/contact.hpp"
 #include "mortise/parts/diameter.hpp"
 #include "mortise/parts/mesh_solid.hpp"
@@ -83,7 +84,7 @@ RotationSet axial_rotations(const MateAxis& axis, int count,
   const Eigen::Vector3d to = axis.fixed.normalized();
   for (int way = 0; way < 2; ++way) {
     const Eigen::Vector3d onto = way == 0 ? to : Eigen::Vector3d(-to);
-    const auto lay = Eigen::Quaterniond::FromTwoVectors(axis.moving.normalized(), onto);
+    const Eigen::Quaterniond lay = rotation_between(axis.moving, onto);
     for (int i = 0; i < count; ++i) {
       const Eigen::Quaterniond q = canonical(
           search_from_fixed *

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "mortise/core/rigid_motion.hpp"
+#include "mortise/core/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -221,7 +222,7 @@ Eigen::Matrix4Xd aligned_rotations(const Directions& fixed, const Directions& mo
   for (const Eigen::Vector3d& to : fixed.axes)
     for (const Eigen::Vector3d& from : moving.axes)
       for (const double way : {1.0, -1.0}) {
-        const auto lay = Eigen::Quaterniond::FromTwoVectors(from, Eigen::Vector3d(way * to));
+        const Eigen::Quaterniond lay = rotation_between(from, way * to);
         for (int i = 0; i < turns; ++i)
           list.add(canonical(
               Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi * i / turns, to)) * lay));

@@ -2,10 +2,10 @@
 // Contact energy, fit and descent.
 #include "scoring/contact_pair.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve_symmetric.hpp"
 #include "mortise/core/rotation_vector.hpp"
 
 namespace mortise {
@@ -140,9 +140,9 @@ RigidMotion ContactPair::descend(const RigidMotion& start, double sigma, double 
   for (int step = 0; step < steps; ++step) {
     const double size = here.curvature.diagonal().maxCoeff();
     if (!(size > 0.0)) break;
-    Eigen::Matrix<double, 6, 6> damped = here.curvature;
+    Eigen::MatrixXd damped = here.curvature;
     damped.diagonal().array() += damping * size;
-    Vector6 move = -damped.ldlt().solve(here.gradient);
+    Vector6 move = -detail::solve_symmetric(damped, here.gradient);
     // A step of more than some sigma leaves what the model knows.
     const double longest = std::max(move.head<3>().norm(), 2.0 * move.tail<3>().norm());
     if (longest > 3.0 * sigma) move *= 3.0 * sigma / longest;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "mortise/core/rigid_motion.hpp"
@@ -36,6 +37,32 @@ TEST(RotationVector, OppositeVectorsAreInverse) {
   EXPECT_LT(mortise::rotation_angle(rotation_from_vector(w) * rotation_from_vector(-w),
                                     Eigen::Quaterniond::Identity()),
             1e-7);  // the arc cosine's half of the digits
+}
+
+TEST(RotationBetween, TurnsOneDirectionToTheOtherTheShortestWay) {
+  const Eigen::Vector3d from(0.3, -1.2, 0.5), across = from.unitOrthogonal();
+  for (const double angle : {0.0, 1e-17, 1e-9, 1e-3, 0.5, 1.5, 1.6, 3.0}) {
+    for (const double short_of_half : {angle, std::numbers::pi - angle}) {
+      const Eigen::Vector3d to =
+          7.0 * (std::cos(short_of_half) * from.normalized() + std::sin(short_of_half) * across);
+      const Eigen::Quaterniond q = mortise::rotation_between(from, to);
+      EXPECT_NEAR(q.norm(), 1.0, 1e-15 * 4);
+      EXPECT_LT((q * from.normalized() - to.normalized()).norm(), 1e-15 * 16) << short_of_half;
+      // The axis lies across both: nothing is turned about the directions themselves. Within 1e-8
+      // of a half turn any axis across will do.
+      EXPECT_NEAR(2.0 * std::atan2(q.vec().norm(), std::abs(q.w())), short_of_half, 2e-8);
+    }
+  }
+}
+
+TEST(RotationBetween, OfOppositeDirectionsIsAHalfTurnAcrossThem) {
+  for (const Eigen::Vector3d& from :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, -2, 2)}) {
+    const Eigen::Quaterniond q = mortise::rotation_between(from, -2.0 * from);
+    EXPECT_LT((q * from + from).norm(), 1e-15 * 8 * from.norm());
+    EXPECT_NEAR(q.w(), 0.0, 1e-15);
+    EXPECT_NEAR(q.vec().dot(from), 0.0, 1e-15 * 4 * from.norm());
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/paired_moments.hpp"
 #include "helpers/random_motions.hpp"
 #include "metrics/bodies.hpp"
 #include "mortise/core/errors.hpp"
@@ -62,6 +63,24 @@ TEST(Superpose, RecoversAMotionAndAgreesWithTheSvd) {
         EXPECT_NEAR(rotation_angle(s.motion.rotation, m.rotation), 0.0, 1e-12);
         EXPECT_NEAR((s.motion.translation - m.translation).norm(), 0.0, 1e-11);
       }
+    }
+}
+
+// Two points, points on a line and points in space: moments of rank one and more.
+TEST(Superpose, RmsdAndRotationAreThoseOfTheSvdAtAnyScale) {
+  std::mt19937 random(8);
+  for (const double scale : {1e-4, 1.0, 1e2, 1e6})
+    for (int trial = 0; trial < 300; ++trial) {
+      Eigen::Matrix3Xd a = scale * Eigen::Matrix3Xd::Random(3, 2 + trial % 3);
+      if (trial % 2 == 0) a = (a.col(0) * Eigen::RowVectorXd::Random(a.cols())).eval();
+      const Eigen::Matrix3Xd b = (1.0 + 0.1 * (trial % 5)) * (random_turn(random, 3.0, scale) * a);
+      auto from = columns(a);
+      const auto [R, t] = reference::kabsch(from, columns(b));
+      for (auto& p : from) p = (R * p + t).eval();
+      const double expected = reference::rmsd(from, columns(b));
+      // The moments leave half of the digits to a small difference (core/paired_moments.cpp).
+      EXPECT_NEAR(detail::rmsd_superposed(detail::paired_moments(a, b)), expected, 1e-7 * scale);
+      EXPECT_NEAR(superpose(a, b).rmsd, expected, 1e-12 * scale);
     }
 }
 

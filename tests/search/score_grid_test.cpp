@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "mortise/affinity/double_skin.hpp"
+#include "mortise/core/rotation_vector.hpp"
 #include "mortise/kernels/ball.hpp"
 #include "mortise/search/rotation_search.hpp"
 #include "reference/score_series.hpp"
@@ -172,8 +173,7 @@ TEST(ScoreGrid, NoPlacementTouchesTwoCopiesOfTheFixedBody) {
   stick.points << -6.0, 6.0, 0.0, 0.0, 0.0, 0.0, 1.8, 1.8;
   for (const Eigen::Vector3d& axis :
        {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)}) {
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis);
+    const Eigen::Quaterniond turn = rotation_between(Eigen::Vector3d::UnitX(), axis);
     const Knots fixed = moved({turn, {1, 2, 3}}, stick);
     const std::vector<Channel> channels = {double_skin_channel(fixed, stick, {1.4, 7.0})};
     // Smooth enough a field that the window's blur stays below the tolerance: fine grid, no window.
