@@ -99,10 +99,10 @@ class PairTables {
 };
 
 // The fixed body's low-passed field on a grid: `count` values a node, one after the other.
-class FieldMaps {
+class LowPassedMaps {
  public:
-  FieldMaps(const Channel& channel, const ShapeKernels& kernels, std::size_t offsets,
-            double spacing, int threads)
+  LowPassedMaps(const Channel& channel, const ShapeKernels& kernels, std::size_t offsets,
+                double spacing, int threads)
       : spacing_(spacing) {
     const Knots& fixed = channel.fixed;
     has_ = {!fixed.weights.real().isZero(0.0) && !channel.moving.weights.real().isZero(0.0),
@@ -265,7 +265,7 @@ Eigen::MatrixXd low_passed_scores(const Channel& channel, const std::vector<Rigi
                                        .offsets = options.offsets});
   const double spacing = options.spacing > 0.0 ? options.spacing : 0.25 / options.low_pass.cutoff;
   const std::size_t offsets = options.offsets.size();
-  const FieldMaps maps(channel, kernels, offsets, spacing, options.threads);
+  const LowPassedMaps maps(channel, kernels, offsets, spacing, options.threads);
   // d_j b_q(r_j) for each part that there is, as the maps have them.
   const RadiusClasses classes(channel.moving);
   Eigen::MatrixXd factors(kernels.terms(), static_cast<Eigen::Index>(classes.radii.size()));
