@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Penetration volume and depth of sample parts against CGAL's intersection of their meshes.
+// Penetration volume and depth of sample parts against the intersection of their meshes.
 #include <gtest/gtest.h>
 
 #include "mortise/metrics/contact.hpp"
