@@ -18,7 +18,7 @@ TriangleMesh read(const std::string& stem) {
       .mesh;
 }
 
-TEST(ContactOfMeshes, IsThatOfTheirIntersection) {
+TEST(ContactOfMeshesSlow, IsThatOfTheirIntersection) {
   const std::vector<TrueMate> mates = read_true_mates(MORTISE_SOURCE_DIR "/parts/mates.json");
   for (const char* name : {"mortise_tenon_close", "dovetail_close", "broken_block_exact",
                            "ball_socket_loose", "spur_gears_close", "jigsaw_close"}) {
